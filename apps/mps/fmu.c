@@ -77,21 +77,22 @@ static void say_nothing(void *user, int32_t kind, const char *text)
     (void)user, (void)kind, (void)text;
 }
 
-/* The case must run: its simulation is built. The number of dimensions is known then. */
-static bool try_case(const choices *c, mps_case *tank, int32_t *dim)
+/* The case must run: its simulation is built. Its sensors are known then. */
+static bool open_model(const choices *c, mps_case *tank, fmu_model *m)
 {
-    fmu_model m = {.folder = ""};
     char error[ERROR_SIZE] = "";
-    const bool good = fmu_model_open(&m, tank, c->quiet ? say_nothing : NULL, NULL, error,
-                                     sizeof error);
-    *dim = m.dim;
-    m.c = NULL; /* it is the caller's */
-    fmu_model_close(&m);
+    if (fmu_model_open(m, tank, c->quiet ? say_nothing : NULL, NULL, error, sizeof error))
+        return true;
     const size_t length = strlen(error);
-    if (!good)
-        fprintf(stderr, "mps %s: %s%s", c->verb, error,
-                length > 0 && error[length - 1] == '\n' ? "" : "\n");
-    return good;
+    fprintf(stderr, "mps %s: %s%s", c->verb, error,
+            length > 0 && error[length - 1] == '\n' ? "" : "\n");
+    return false;
+}
+
+static void close_model(fmu_model *m)
+{
+    m->c = NULL; /* it is the caller's */
+    fmu_model_close(m);
 }
 
 /* All files of the FMU, as a new file that then takes the place of `path`. */
@@ -123,7 +124,10 @@ static int make(const choices *c, mps_case *tank, const char *path)
     part p[3] = {{NULL, 0}};
     char module[PATH_SIZE + 128];
     int code = MPS_EXIT_OK;
-    if (!try_case(c, tank, &a.dim)) return MPS_EXIT_USAGE;
+    if (!open_model(c, tank, &a.model)) {
+        close_model(&a.model);
+        return MPS_EXIT_USAGE;
+    }
     describe(&a, c, tank);
     if (!find_module(module, sizeof module) || !read_part(&p[2], module))
         code = refuse(c, MPS_EXIT_FAILED, module, strerror(errno));
@@ -135,6 +139,7 @@ static int make(const choices *c, mps_case *tank, const char *path)
     else if (!c->quiet)
         printf("%s: FMI %d.0, co-simulation, %s\n", path, (int)a.version, a.token);
     for (int k = 0; k < 3; k++) free(p[k].data);
+    close_model(&a.model);
     return code;
 }
 

@@ -7,7 +7,8 @@
 #include <stdio.h>
 
 typedef struct fmu_about {
-    int32_t version, dim; /* 2 or 3, of FMI; of the case */
+    int32_t version; /* 2 or 3, of FMI */
+    fmu_model model;
     char name[256];       /* of the case */
     char identifier[256]; /* the same as a name in C */
     char token[FMU_TOKEN];

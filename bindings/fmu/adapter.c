@@ -167,7 +167,7 @@ fmu_status fmu_reset(fmu *f)
 
 static fmu_status find(const fmu *f, const char *call, uint32_t reference, fmu_variable *v)
 {
-    if (fmu_variable_of(f->model.dim, reference, v)) return FMU_OK;
+    if (fmu_variable_of(&f->model, reference, v)) return FMU_OK;
     return fmu_tell(f, FMU_ERROR, "%s: there is no variable with the value reference %u", call,
                     (unsigned)reference);
 }
@@ -184,9 +184,20 @@ fmu_status fmu_set(fmu *f, const uint32_t *reference, size_t count, const double
                             v.unit);
     }
     for (size_t k = 0; k < count; k++)
-        if (fmu_variable_of(f->model.dim, reference[k], &v))
+        if (fmu_variable_of(&f->model, reference[k], &v))
             f->v.input[v.kind - FMU_POSE][v.dof] = value[k];
     return FMU_OK;
+}
+
+/* Pressures are 0 before the first step, as loads are. */
+static fmu_status read_sensor(fmu *f, const fmu_variable *v, double *value)
+{
+    int64_t steps = 0;
+    mps_sim_time(f->model.sim, NULL, &steps);
+    *value = 0;
+    if (v->later && steps == 0) return FMU_OK;
+    if (mps_job_column_read(f->model.job, f->model.sim, v->dof, value) == MPS_OK) return FMU_OK;
+    return fmu_tell(f, FMU_ERROR, "get: %s", mps_job_error(f->model.job));
 }
 
 fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *value)
@@ -194,6 +205,10 @@ fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *valu
     fmu_variable v;
     for (size_t k = 0; k < count; k++) {
         if (find(f, "get", reference[k], &v) != FMU_OK) return FMU_ERROR;
+        if (v.kind == FMU_SENSOR) {
+            if (read_sensor(f, &v, &value[k]) != FMU_OK) return FMU_ERROR;
+            continue;
+        }
         value[k] = v.input              ? f->v.input[v.kind - FMU_POSE][v.dof]
                    : v.kind == FMU_LOAD ? f->v.load[v.dof]
                    : v.kind == FMU_REST ? f->v.rest[v.dof]
@@ -329,12 +344,14 @@ fmu_status fmu_derivative(fmu *f, const fmu_direction *d)
         if (find(f, "derivative", d->unknown[i], &u) != FMU_OK) return FMU_ERROR;
         if (u.kind < FMU_LOAD)
             return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no output", u.name);
+        if (u.kind == FMU_SENSOR)
+            return fmu_tell(f, FMU_DISCARD, "derivative: that of '%s' is not known", u.name);
     }
     for (size_t i = 0; i < d->unknowns; i++) {
         d->out[i] = 0;
-        fmu_variable_of(f->model.dim, d->unknown[i], &u);
+        fmu_variable_of(&f->model, d->unknown[i], &u);
         for (size_t k = 0; k < d->knowns && u.kind == FMU_LOAD; k++)
-            if (fmu_variable_of(f->model.dim, d->known[k], &v) && v.kind == FMU_ACCELERATION)
+            if (fmu_variable_of(&f->model, d->known[k], &v) && v.kind == FMU_ACCELERATION)
                 d->out[i] += slope(f, u.dof, v.dof) * d->seed[k];
     }
     return FMU_OK;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The table of variables, and the token of a case. */
 #include "variables.h"
+#include <ctype.h>
 #include <mps/mps.h>
 #include <stdio.h>
 #include <string.h>
@@ -48,19 +49,46 @@ static void fill(int32_t dim, fmu_kind kind, int32_t dof, fmu_variable *v)
     v->about = turns ? table[kind].turned_about : table[kind].about;
 }
 
-bool fmu_variable_at(int32_t dim, int32_t index, fmu_variable *v)
+/* A name of FMI is of letters, digits and '_', or stands in quotes. */
+static bool is_plain(const char *name)
 {
-    int32_t left = index - 1;
-    if (index == 0) fill(dim, FMU_TIME, 0, v);
-    for (fmu_kind kind = FMU_POSE; kind < FMU_KINDS && left >= 0; kind++)
-        for (int32_t dof = 0; dof < MPS_DOF_COUNT && left >= 0; dof++)
-            if (has(dim, dof) && left-- == 0) fill(dim, kind, dof, v);
-    return index >= 0 && left < 0;
+    if (isdigit((unsigned char)name[0])) return false;
+    for (; *name; name++)
+        if (!isalnum((unsigned char)*name) && *name != '_') return false;
+    return true;
 }
 
-bool fmu_variable_of(int32_t dim, uint32_t reference, fmu_variable *v)
+static bool fill_sensor(const fmu_model *m, int32_t number, fmu_variable *v)
 {
-    for (int32_t i = 0; fmu_variable_at(dim, i, v); i++)
+    mps_job_column c;
+    mps_job_column_init(&c, sizeof c);
+    if (mps_job_column_get(m->job, number, &c) != MPS_OK) return false;
+    *v = (fmu_variable){.reference = FMU_SENSORS + (uint32_t)number,
+                        .kind = FMU_SENSOR,
+                        .dof = number,
+                        .later = (c.flags & MPS_JOB_PRESSURE) != 0,
+                        .unit = c.unit,
+                        .about = c.about};
+    snprintf(v->name, sizeof v->name, is_plain(c.name) ? "sensor.%s" : "sensor.'%s'", c.name);
+    return true;
+}
+
+bool fmu_variable_at(const fmu_model *m, int32_t index, fmu_variable *v)
+{
+    int32_t left = index - 1;
+    if (index == 0) fill(m->dim, FMU_TIME, 0, v);
+    for (fmu_kind kind = FMU_POSE; kind < FMU_KINDS && left >= 0; kind++)
+        for (int32_t dof = 0; dof < MPS_DOF_COUNT && left >= 0; dof++)
+            if (has(m->dim, dof) && left-- == 0) fill(m->dim, kind, dof, v);
+    return index >= 0 && (left < 0 || fill_sensor(m, left, v));
+}
+
+bool fmu_variable_of(const fmu_model *m, uint32_t reference, fmu_variable *v)
+{
+    if (reference >= FMU_SENSORS)
+        return reference - FMU_SENSORS <= INT32_MAX &&
+               fill_sensor(m, (int32_t)(reference - FMU_SENSORS), v);
+    for (int32_t i = 0; fmu_variable_at(m, i, v) && v->kind != FMU_SENSOR; i++)
         if (v->reference == reference) return true;
     return false;
 }
@@ -79,6 +107,7 @@ void fmu_token(const char *text, char token[FMU_TOKEN])
         h[k] = hash(hash(h[k], mps_version(NULL, NULL, NULL)), text);
         for (fmu_kind kind = FMU_POSE; kind < FMU_KINDS; kind++)
             h[k] = hash(hash(h[k], table[kind].name), table[kind].turned);
+        h[k] = hash(h[k], "sensor");
     }
     snprintf(token, FMU_TOKEN, "{%08x-%04x-%04x-%04x-%04x%08x}", (unsigned)(h[0] >> 32),
              (unsigned)(h[0] >> 16 & 0xffff), (unsigned)(h[0] & 0xffff), (unsigned)(h[1] >> 48),

@@ -9,8 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* A value reference is kind * FMU_STRIDE + degree of freedom; the time is 0. */
-enum { FMU_STRIDE = 16, FMU_TOKEN = 40 };
+/* A value reference is kind * FMU_STRIDE + degree of freedom, of a sensor FMU_SENSORS + its number; the time is 0. */
+enum { FMU_STRIDE = 16, FMU_SENSORS = 1024, FMU_TOKEN = 40 };
 
 typedef enum fmu_kind {
     FMU_TIME,
@@ -19,22 +19,19 @@ typedef enum fmu_kind {
     FMU_ACCELERATION, /* .. and its second one */
     FMU_LOAD,         /* outputs: F */
     FMU_REST,         /* F0 */
-    FMU_KINDS
+    FMU_KINDS,
+    FMU_SENSOR = FMU_KINDS /* outputs: sensors of the case */
 } fmu_kind;
 
 typedef struct fmu_variable {
     uint32_t reference;
     fmu_kind kind;
-    int32_t dof;
+    int32_t dof; /* of a sensor: its number */
     bool input;
-    char name[24];
-    const char *unit, *about;
+    bool later; /* known after the first step */
+    char name[48];
+    const char *unit, *about; /* of a sensor: owned by the job */
 } fmu_variable;
-
-/* Variable number `index` of a case with so many dimensions, the time first. @return false: beyond the last */
-bool fmu_variable_at(int32_t dim, int32_t index, fmu_variable *v);
-/* @return false: there is none with this reference */
-bool fmu_variable_of(int32_t dim, uint32_t reference, fmu_variable *v);
 
 /* What tells that a description and a case belong together: 32 digits of the case as it is run, of the version of the
  * library and of the variables. */
@@ -55,5 +52,10 @@ bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, c
                     size_t size);
 /* Free all and remove the folder. */
 void fmu_model_close(fmu_model *m);
+
+/* Variable number `index` of a model, the time first. @return false: beyond the last */
+bool fmu_variable_at(const fmu_model *m, int32_t index, fmu_variable *v);
+/* @return false: there is none with this reference */
+bool fmu_variable_of(const fmu_model *m, uint32_t reference, fmu_variable *v);
 
 #endif

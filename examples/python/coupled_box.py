@@ -21,8 +21,7 @@ while sim.t < 4.0:
         sim.pose_to(sim.t + DT, {"x": x + (v + a * DT) * DT})
         sim.step(DT)
         load = sim.load()
-        mass = load.mass[0, 0]
-        right = (load.force[0] + mass * load.acceleration[0]) / (M + mass)
+        right = float(load.rest[0]) / (M + float(load.mass[0, 0]))
         if abs(right - a) < 1e-4:
             break
         before.restore()

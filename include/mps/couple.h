@@ -130,7 +130,8 @@ MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
  *
  *    F = sum_i m_i (g - (u_i(t) - u_i(t - dt))/dt) + sum_h m_h (g - a_h),
  *
- *  m_i = rho dp^dim, half of it on the surface, m_h = rho dp/2 times the wetted area, a_h the
+ *  m_i = rho dp^dim, half of it on the surface, m_h = rho dp/2 times the wetted area (a quarter or
+ *  an eighth of a cell where two or three walls meet, the rest of it about a block), a_h the
  *  acceleration of the wall along its normal and of the liquid beside it along the face. The moment
  *  likewise, about the place that the centre has at the beginning of the step. F contains all that
  *  the liquid exchanges with solids: pressure, collisions, friction. It is the mean over this one
@@ -142,9 +143,11 @@ MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
  *    F = F0 - A a.
  *
  *  A is the added mass, F0 the load without acceleration. F is linear in a as long as the same
- *  walls separate (separation.void), else to some per cent. A body of mass m that moves with the
- *  tank under other forces Q has m a = Q + F, so a = (Q + F0)/(m + A): with it a step may be done
- *  again, where with m a = Q + F alone it diverges for A > m.
+ *  walls separate (separation.void), else to some per cent. With a compressible gas A is the
+ *  tangent of one step: it depends on dt, because the gas gives way by what sound passes in a step.
+ *  A body of mass m that moves with the tank under other forces Q has m a = Q + F, so
+ *  a = (Q + F0)/(m + A): with it a step may be done again, where with m a = Q + F alone it diverges
+ *  for A > m.
  *
  *  The first step feels half of a jump of the velocity: start bodies at rest. Solids that models
  *  move in the tank (body.free) count as part of it. On many ranks all have the same values. */

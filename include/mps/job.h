@@ -236,6 +236,36 @@ MPS_API mps_status mps_job_value_add(mps_job *job, const char *name, const char 
                                      const char *about, int32_t flags, mps_job_value_fn value,
                                      void *user);
 
+/** A column that was added to a job: of a case, one of its sensors. */
+typedef struct mps_job_column {
+    /** Set by mps_job_column_init(). */
+    uint32_t struct_size;
+    /** Sum of MPS_JOB_... */
+    int32_t flags;
+    /** Its name; like `unit` and `about` it belongs to the job and is valid until a column is added
+     *  or the job is destroyed. */
+    const char *name;
+    /** "": none. */
+    const char *unit;
+    /** What it is, behind a colon where and how. */
+    const char *about;
+} mps_job_column;
+
+/** Set struct_size and zero. @param size  sizeof(mps_job_column) @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_job_column_init(mps_job_column *column, size_t size);
+
+/** Tell what a column is. @param index  from 0, in the order in which columns were added
+ *  @param column  initialised by mps_job_column_init(); out
+ *  @return MPS_E_ARG: no such column */
+MPS_API mps_status mps_job_column_get(const mps_job *job, int32_t index, mps_job_column *column);
+
+/** Measure a column now, for programs that step the simulation themselves.
+ *  @param sim    the simulation to which it was added
+ *  @param value  out; NAN: it cannot be measured now
+ *  @return MPS_E_ARG: no such column; MPS_E_STATE: a column with MPS_JOB_PARTICLES on many ranks;
+ *          those of mps_probe_read() */
+MPS_API mps_status mps_job_column_read(mps_job *job, mps_sim *sim, int32_t index, double *value);
+
 /** Add a number to summary.json, measured after the last step.
  *  @return MPS_E_ARG, MPS_E_NAME (another figure has this name), MPS_E_NOMEM */
 MPS_API mps_status mps_job_figure_add(mps_job *job, const char *name, const char *about,

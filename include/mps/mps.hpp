@@ -68,6 +68,8 @@ using stl = with_defaults<mps_stl, mps_stl_init>;
 using solid = with_defaults<mps_solid, mps_solid_init>;
 using particle_block = with_defaults<mps_particle_block, mps_particle_block_init>;
 using motion_state = with_defaults<mps_motion_state, mps_motion_state_init>;
+using body = with_defaults<mps_body, mps_body_init>;
+using body_report = with_defaults<mps_body_report, mps_body_report_init>;
 using probe_definition = with_defaults<mps_probe, mps_probe_init>;
 using probe_info = with_defaults<mps_probe_info, mps_probe_info_init>;
 using energy = with_defaults<mps_energy, mps_energy_init>;
@@ -205,6 +207,9 @@ class simulation {
   public:
     /** Function of the tank's motion: sets value, rate, accel at a time. */
     using motion = std::function<void(double t, mps_motion_state &state)>;
+    /** Function of the load on a body beside liquid, weight and springs: sets force and moment, 6
+     *  numbers that arrive as 0. */
+    using body_load = std::function<void(double t, const mps_motion_state &state, double *load)>;
     /** Messages of the library. */
     using logger = std::function<void(int level, const std::string &text)>;
 
@@ -281,6 +286,10 @@ class simulation {
     void move(const std::vector<mps_harmonic> &harmonics);
     void move(motion function);
     motion_state pose() const;
+    /** A body carries the tank. @param load  empty: that of b */
+    void carry(mps::body b, body_load load = {});
+    /** The body in the last step. */
+    mps::body_report body_report() const;
 
     mps::probe add(const mps_probe &definition);
     mps::energy energy() const;
@@ -315,14 +324,15 @@ class simulation {
     struct callbacks { /* at one place in memory, because the library has pointers to it */
         logger log;
         motion move;
+        body_load load;
         std::exception_ptr failed;
     };
     template <class F>
-    static auto guarded(callbacks *c, F body, decltype(body()) otherwise) -> decltype(body())
+    static auto guarded(callbacks *c, F call, decltype(call()) otherwise) -> decltype(call())
     {
         if (c->failed) return otherwise;
         try {
-            return body();
+            return call();
         } catch (...) {
             c->failed = std::current_exception();
             return otherwise;

@@ -60,7 +60,7 @@ inline void frames::write()
 }
 
 inline simulation::simulation(config c, const char *preset, logger log)
-    : calls_(new callbacks{std::move(log), {}, {}})
+    : calls_(new callbacks{std::move(log), {}, {}, {}})
 {
     char text[1024] = "";
     mps_sim *made = nullptr;
@@ -242,6 +242,29 @@ inline motion_state simulation::pose() const
     motion_state state;
     check(mps_motion_state_get(handle(), &state));
     return state;
+}
+
+inline void simulation::carry(mps::body b, body_load load)
+{
+    body_load before = std::exchange(calls_->load, std::move(load));
+    if (calls_->load) {
+        b.user = calls_.get();
+        b.load = [](void *user, double t, const mps_motion_state *state, double *out) -> int {
+            auto *calls = static_cast<callbacks *>(user);
+            return guarded(
+                calls, [&] { return calls->load(t, *state, out), 0; }, 1);
+        };
+    }
+    const mps_status status = mps_body_set(handle(), &b);
+    if (status < 0) calls_->load = std::move(before);
+    check(status);
+}
+
+inline mps::body_report simulation::body_report() const
+{
+    mps::body_report report;
+    check(mps_body_get(handle(), &report));
+    return report;
 }
 
 inline mps::probe simulation::add(const mps_probe &definition)

@@ -46,6 +46,10 @@ static void without_a_job(void **state)
     assert_int_equal(mps_measure_info_init(NULL, sizeof info), MPS_E_ARG);
     assert_int_equal(mps_measure_info_init(&info, 1), MPS_E_ARG);
     assert_int_equal(mps_measure_info_get(0, NULL), MPS_E_ARG);
+    assert_int_equal(mps_job_column_init(NULL, sizeof(mps_job_column)), MPS_E_ARG);
+    assert_int_equal(mps_job_column_init(&(mps_job_column){0}, 1), MPS_E_ARG);
+    assert_int_equal(mps_job_column_get(NULL, 0, &(mps_job_column){0}), MPS_E_ARG);
+    assert_int_equal(mps_job_column_read(NULL, NULL, 0, NULL), MPS_E_ARG);
     assert_int_equal(mps_reference_init(NULL, sizeof r), MPS_E_ARG);
     assert_int_equal(mps_trace_init(NULL, sizeof t), MPS_E_ARG);
     assert_int_equal(mps_case_job(NULL, NULL, NULL, NULL), MPS_E_ARG);

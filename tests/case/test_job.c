@@ -364,6 +364,19 @@ static void measures_are_listed(void **state)
         count++;
     }
     assert_true(count >= 14);
+    mps_job_column column;
+    double value = NAN;
+    int columns = 0;
+    assert_int_equal(mps_job_column_init(&column, sizeof column), MPS_OK);
+    while (mps_job_column_get(job, columns, &column) == MPS_OK) {
+        assert_int_equal(mps_measure_info_get(columns, &info), MPS_OK);
+        assert_string_equal(column.name, info.name);
+        assert_string_equal(column.unit, info.unit);
+        assert_int_equal(mps_job_column_read(job, sim, columns, &value), MPS_OK);
+        columns += 1;
+    }
+    assert_int_equal(columns, count);
+    assert_int_equal(mps_job_column_read(job, sim, count, &value), MPS_E_ARG);
     ASSERT_JOB_REFUSED(job, mps_job_measure_add(job, sim, &m), MPS_E_NAME, m.measure);
     m.measure = "fornt";
     ASSERT_JOB_REFUSED(job, mps_job_measure_add(job, sim, &m), MPS_E_NAME, "'fornt'");

@@ -141,6 +141,27 @@ static void callbacks()
     CHECK(solid.fill([](const double *x) { return x[1] < 0.2; }) > 0);
 }
 
+// A body of 100 kg/m that a force of 100 N/m pushes along x: less than 1 m/s2, because liquid goes with it.
+static void bodies()
+{
+    mps::simulation sim = still();
+    mps::body box;
+    box.free = MPS_BODY_FREE(MPS_MOVE_X);
+    box.mass = 100;
+    sim.carry(box, [](double, const mps_motion_state &, double *load) { load[0] = 100; });
+    CHECK(sim.run(0.02));
+    const mps::body_report r = sim.body_report();
+    CHECK(r.acceleration[0] > 0.2 && r.acceleration[0] < 0.9 && r.external[0] == 100);
+    CHECK(std::fabs(100 * r.acceleration[0] - 100 - r.liquid[0]) < 1e-6);
+    mps::simulation moved = std::move(sim); // callbacks go along
+    moved.carry(box, [](double, const mps_motion_state &, double *) {
+        throw std::out_of_range("no more");
+    });
+    CHECK(throws<std::out_of_range>([&] { moved.step(1.0); }, "no more"));
+    box.mass = -1;
+    CHECK(throws<mps::error>([&] { moved.carry(box); }, "mass"));
+}
+
 int main()
 {
     mps::config bad;
@@ -151,5 +172,6 @@ int main()
     values();
     arrays();
     callbacks();
+    bodies();
     return failures ? 1 : 0;
 }

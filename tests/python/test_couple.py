@@ -55,6 +55,61 @@ class Coupled(unittest.TestCase):
         with self.assertRaises(mps.ArgumentError):
             sim.load(centre=(np.nan, 0))
 
+    def test_body(self) -> None:
+        """A box of 100 kg/m on a spring, pushed: its own equation, with the load of its liquid."""
+        sim, seen = full_box(), []
+
+        def push(t: float, state: mps.Record) -> dict[str, float]:
+            seen.append((t, state.value[0]))
+            return {"x": 50.0}
+
+        sim.body("x", mass=100.0, stiffness={"x": 2000.0}, gravity=False, load=push)
+        sim.run(0.02)
+        body = sim.body_report
+        self.assertAlmostEqual(body.mass[0, 0] / 400, 1, delta=1e-4)
+        self.assertAlmostEqual(body.acceleration[0], 0.1, delta=0.01)  # 50/(100 + 400)
+        self.assertAlmostEqual(100 * body.acceleration[0] / (50 + body.liquid[0] + body.restoring[0]), 1, delta=1e-9)
+        self.assertEqual(len(seen), sim.steps)
+        self.assertEqual(body.external[0], 50.0)
+        self.assertGreater(seen[-1][1], 0.0)
+        other = full_box()
+        other.motion_centre((0.4, 0.25))
+        other.body(("x", "rotate_z"), mass=100.0, inertia=5.0, centre_of_mass=(0.4, 0.25), stiffness=np.diag([2000.0, 0, 0, 0, 0, 300.0]),
+                   damping={"rotate_z": 2.0}, equilibrium={"x": 1e-3})
+        other.run(0.01)
+        # the spring of 2 N/m at 1 mm pulls 500 kg/m there
+        self.assertAlmostEqual(other.body_report.pose[0] / (0.5 * 2.0 / 500.0 * 0.01 ** 2), 1, delta=0.1)
+        self.assertEqual(other.body_report.pose[1], 0.0)
+
+    def test_body_refused(self) -> None:
+        sim = full_box()
+        with self.assertRaisesRegex(mps.ArgumentError, "mass"):
+            sim.body("x", mass=-1.0)
+        with self.assertRaisesRegex(mps.UnknownName, "heave"):
+            sim.body("heave", mass=1.0)
+        with self.assertRaisesRegex(mps.ArgumentError, r"\[6, 6\]"):
+            sim.body("x", mass=1.0, stiffness=np.zeros((3, 3)))
+        with self.assertRaisesRegex(mps.ArgumentError, "inertia"):
+            sim.body("rotate_z", inertia=(1.0, 2.0))
+        with self.assertRaises(mps.StateError):
+            sim.body_report  # noqa: B018: there is no body
+
+        def fails(t: float, state: mps.Record) -> list[float]:
+            raise KeyError("mine")
+
+        sim.body("x", mass=1.0, load=fails)
+        with self.assertRaises(mps.PluginError) as failed:
+            sim.step()
+        self.assertIsInstance(failed.exception.__cause__, KeyError)
+        self.assertEqual(sim.steps, 0)
+        sim.body("x", mass=1.0, load=lambda t, state: [1.0])
+        with self.assertRaises(mps.PluginError) as failed:
+            sim.step()
+        self.assertIn("six", str(failed.exception.__cause__))
+        sim.body("x", mass=100.0)
+        sim.step()
+        self.assertEqual(sim.steps, 1)
+
     def test_refused(self) -> None:
         sim = full_box()
         with self.assertRaises(mps.StateError):

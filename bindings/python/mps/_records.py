@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import functools
 from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
@@ -55,40 +56,87 @@ def _assign(struct: ctypes.Structure, name: str, value: Any) -> None:
         raise errors.ArgumentError(f"{name}: {value!r} is not allowed: {e}") from None
 
 
+_defaults: dict[type[ctypes.Structure], ctypes.Structure] = {}
+
+
+def _default(kind: type[S]) -> S:
+    """A struct with the defaults of the library, which is asked once."""
+    found = _defaults.get(kind)
+    if found is None:
+        found = one = kind()
+        init = f"{kind.__name__}_init"
+        try:
+            getattr(c, init)(ctypes.byref(one), ctypes.sizeof(kind))
+        except AttributeError:
+            if hasattr(one, "struct_size"):
+                one.struct_size = ctypes.sizeof(kind)
+        _defaults[kind] = one
+    return kind.from_buffer_copy(found)  # type: ignore[return-value]
+
+
+def copied(struct: S) -> S:
+    """A copy of a struct that belongs to the library."""
+    return type(struct).from_buffer_copy(struct)
+
+
 def make(kind: type[S], given: dict[str, Any] | None = None, what: str = "") -> S:
     """A struct with its defaults, and with the entries that are given."""
-    one = kind()
-    init = f"{kind.__name__}_init"
-    try:
-        getattr(c, init)(ctypes.byref(one), ctypes.sizeof(kind))
-    except AttributeError:
-        if hasattr(one, "struct_size"):
-            one.struct_size = ctypes.sizeof(kind)
-    names = [f[0] for f in kind._fields_ if f[0] not in ("struct_size", "reserved")]
-    for name, value in (given or {}).items():
-        if name not in names:
-            raise errors.ArgumentError(f"{what or kind.__name__}: unknown entry '{name}'; allowed are {', '.join(names)}")
-        _assign(one, name, value)
+    one = _default(kind)
+    if given:
+        names = _entries(kind)
+        for name, value in given.items():
+            if name not in names:
+                raise errors.ArgumentError(f"{what or kind.__name__}: unknown entry '{name}'; allowed are {', '.join(names)}")
+            _assign(one, name, value)
     return one
 
 
-class Record:
-    """Values of a struct, by name; arrays are those of numpy."""
+@functools.cache
+def _entries(kind: type[ctypes.Structure]) -> dict[str, bool]:
+    """Names of the entries that mean something, and whether each is a text that lives elsewhere."""
+    return {f[0]: f[1] is ctypes.c_char_p for f in kind._fields_ if f[0] not in ("struct_size", "reserved")}
 
-    def __init__(self, struct: ctypes.Structure) -> None:
-        for name, *_ in struct._fields_:
-            value = getattr(struct, name)
-            if name in ("struct_size", "reserved"):
-                continue
-            if isinstance(value, ctypes.Array):
-                value = text(value.value) if value._type_ is ctypes.c_char else np.array(value)
-            self.__dict__[name] = text(value) if isinstance(value, bytes) else value
+
+@functools.cache
+def _texts(kind: type[ctypes.Structure]) -> list[str]:
+    return [name for name, elsewhere in _entries(kind).items() if elsewhere]
+
+
+_NUMBERS = {ctypes.c_double: np.float64, ctypes.c_float: np.float32, ctypes.c_int32: np.int32, ctypes.c_int64: np.int64,
+            ctypes.c_uint32: np.uint32, ctypes.c_uint8: np.uint8}
+
+
+class Record:
+    """Values of a struct, by name; arrays are those of numpy. An entry is read when it is asked for: a program that looks at a few entries in
+    each step does not pay for all. The struct is the record's own: copy one that is not."""
+
+    def __init__(self, struct: ctypes.Structure, **shapes: tuple[int, ...]) -> None:
+        own = self.__dict__
+        own["_struct"], own["_shapes"] = struct, shapes
+        for name in _texts(type(struct)):  # the library may free them
+            own[name] = text(getattr(struct, name))
 
     def __getattr__(self, name: str) -> Any:
-        raise AttributeError(f"no entry '{name}'; there are {', '.join(self.__dict__)}")
+        struct = self.__dict__.get("_struct")
+        allowed = _entries(type(struct)) if struct is not None else {}
+        if name not in allowed:
+            raise AttributeError(f"no entry '{name}'; there are {', '.join(allowed)}")
+        value = getattr(struct, name)
+        if isinstance(value, ctypes.Array):
+            if value._type_ is ctypes.c_char:
+                value = text(value.value)
+            else:
+                value = np.frombuffer(value, _NUMBERS[value._type_])
+                if name in self._shapes:
+                    value = value.reshape(self._shapes[name])
+        self.__dict__[name] = value
+        return value
+
+    def __dir__(self) -> list[str]:
+        return [*super().__dir__(), *_entries(type(self._struct))]
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
-        return iter(self.__dict__.items())
+        return iter([(name, getattr(self, name)) for name in _entries(type(self._struct))])
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {value}" for name, value in self)

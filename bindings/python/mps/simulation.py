@@ -17,7 +17,7 @@ from ._couple import Coupling
 from ._geometry import Geometry
 from ._library import c
 from ._motion import Motion
-from ._records import Calls, Record, coded, make, pointer, text
+from ._records import Calls, Record, coded, copied, make, pointer, text
 from .lease import Lease
 from .model import Model, register
 from .probe import Probe
@@ -70,6 +70,8 @@ class Simulation(Geometry, Motion, Coupling):
 
     def check(self, status: int) -> int:
         """Raise what a call of the library or of one of your functions failed with."""
+        if status == 0 and self._calls.failed is None:
+            return 0
         failed = self._calls.taken()
         if failed is not None and not isinstance(failed, Exception):
             raise failed  # KeyboardInterrupt
@@ -249,7 +251,7 @@ class Simulation(Geometry, Motion, Coupling):
         """Step until t_end [s]. monitor(sim, info) is called after each step; it stops the run by returning True.
         Returns whether t_end was reached."""
         def call(_user: Any, _sim: Any, info: Any) -> int:
-            return 1 if monitor is not None and monitor(self, Record(info.contents)) else 0
+            return 1 if monitor is not None and monitor(self, Record(copied(info.contents))) else 0
 
         # a callback without a monitor too: it lets Python see Ctrl-C
         function = T.mps_monitor_fn(self._calls.guard(call, 1))

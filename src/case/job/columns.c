@@ -62,6 +62,43 @@ bool mps__job_is_common(const char *name)
     return strcmp(name, "t") == 0;
 }
 
+mps_status mps_job_column_init(mps_job_column *column, size_t size)
+{
+    if (!column || size != sizeof *column) return MPS_E_ARG;
+    *column = (mps_job_column){.struct_size = sizeof *column, .name = "", .unit = "", .about = ""};
+    return MPS_OK;
+}
+
+mps_status mps_job_column_get(const mps_job *job, int32_t index, mps_job_column *column)
+{
+    if (!job || !column || column->struct_size != sizeof *column || index < 0 ||
+        index >= job->columns)
+        return MPS_E_ARG;
+    const job_column *c = &job->column[index];
+    *column = (mps_job_column){sizeof *column, c->flags, c->name, c->unit, c->about};
+    return MPS_OK;
+}
+
+mps_status mps_job_column_read(mps_job *job, mps_sim *sim, int32_t index, double *value)
+{
+    double values[8] = {0};
+    int32_t rank, ranks = 1;
+    if (!job || !sim || !value || index < 0 || index >= job->columns) return MPS_E_ARG;
+    const job_column *c = &job->column[index];
+    mps_sim_ranks(sim, &rank, &ranks);
+    if (ranks > 1 && (c->flags & MPS_JOB_PARTICLES))
+        return mps__job_refuse(job, MPS_E_STATE, "%s: particles of one rank are not enough",
+                               c->name);
+    if (c->value) {
+        *value = c->value(c->user, sim);
+        return MPS_OK;
+    }
+    const mps_status status = mps_probe_read(sim, c->probe, values);
+    if (status < 0) return mps__job_refuse(job, status, "%s: %s", c->name, mps_sim_error(sim));
+    *value = values[c->component] - c->zero;
+    return MPS_OK;
+}
+
 /* Rounding of 0 becomes 0. */
 static void tidy(job_box *b, double dp)
 {

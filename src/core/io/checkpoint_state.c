@@ -75,9 +75,7 @@ static size_t element(const mps__field *f)
 static bool is_stored(const mps__world *w, int32_t field)
 {
     const mps__particles *s = &w->particles;
-    /* first guesses of the added mass count where a body follows from it */
-    return s->field[field].data != (void **)&s->wall_id &&
-           (!s->field[field].passing || mps__body_carries(w));
+    return s->field[field].data != (void **)&s->wall_id;
 }
 
 /* ---- out ---- */
@@ -218,11 +216,13 @@ static mps_status find_particles(arrival *v)
     const mps__particles *s = &v->sim->world.particles;
     char name[MPS__PART_TITLE];
     if (!mps__archive_get(v->a, "field id", sizeof *s->id, &v->n)) return MPS_E_VERSION;
-    for (int32_t k = 0; k < s->fields; k++)
-        if (is_stored(&v->sim->world, k) &&
-            !(v->arrived.field[k] = part(v, title(name, "field", s->field[k].name),
-                                         element(&s->field[k]), v->n)))
-            return MPS_E_VERSION;
+    for (int32_t k = 0; k < s->fields; k++) {
+        title(name, "field", s->field[k].name);
+        if (!is_stored(&v->sim->world, k) || (s->field[k].passing && !mps__archive_has(v->a, name)))
+            continue;
+        v->arrived.field[k] = part(v, name, element(&s->field[k]), v->n);
+        if (!v->arrived.field[k]) return MPS_E_VERSION;
+    }
     const void *have = part(v, "lists", sizeof v->have, 1);
     if (!have) return MPS_E_VERSION;
     memcpy(&v->have, have, sizeof v->have);

@@ -21,7 +21,7 @@ typedef struct mps__field {
     double begin; /* value of new particles, of fields of doubles */
     bool stale;   /* owners have newer values than ghosts */
     bool trails;  /* stays the last one, as it will be dropped */
-    bool passing; /* only speeds up what follows: checkpoints do not store it */
+    bool passing; /* a first guess: zeros, where a checkpoint does not have it */
     bool undone;  /* a failed step brings it back from `kept` */
     void *kept;
     int64_t kept_capacity;

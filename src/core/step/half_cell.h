@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_HALF_CELL_H
 #define MPS_CORE_HALF_CELL_H
 
+#include "rotation.h"
 #include <math.h>
 #include <mps/operators.h>
 #include <mps/stage.h>
@@ -13,6 +14,7 @@ typedef struct mps__halves {
     const int32_t *region;
     const double *a; /* acceleration of the liquid: of particle j from a[j*stride] on */
     int64_t stride;
+    double turn[3]; /* angular acceleration of the tank */
 } mps__halves;
 
 /* Mass of a particle of the liquid, which ends at the centres of those on the surface. */
@@ -27,45 +29,97 @@ static inline bool mps__is_about(const mps_view *v, const mps__halves *h, int64_
     return mps_is_fluid(v, j) && mps_region_of(h->region, j) != MPS_REGION_SPRAY;
 }
 
-/* Mass of the half cell before a particle, 0: there is none; n: unit normal of the wall. Where faces meet the cell is a quarter, and the area
- * vector is shorter. Beside the surface the wetted share counts. */
+/* Of the area of a cell's face: an area vector within a face has more than the first, those beside edges, in which two or three faces meet, have
+ * more than the second (a corner: sqrt(3)/4). A free edge of a thin plate has less. */
+static const double MPS__IN_FACE = 0.9, MPS__IN_EDGE = 0.4;
+
+/* Area of the largest of the faces that meet in wall particle i. Beside an edge its area vector has a share of each face; particles beside it,
+ * within the faces, have their normals. */
+MPS_ROW double mps__face_area(const int dim, const mps_view *v, int64_t i, double size)
+{
+    const mps_stencil *t = &v->near;
+    const double *area = v->area + i * dim, face = dim == 2 ? v->dp : v->dp * v->dp;
+    double most = 0;
+    if (size >= MPS__IN_FACE * face) return size;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        const double *other = v->area + j * dim;
+        double own = 0, along = 0;
+        if (!mps_is_wall(v, j)) continue;
+        for (int d = 0; d < dim; d++) {
+            own += other[d] * other[d];
+            along += other[d] * area[d];
+        }
+        own = sqrt(own);
+        if (own >= MPS__IN_FACE * face) most = fmax(most, along / own);
+    }
+    return most > 0 ? most : size * size / face;
+}
+
+/* Whether the liquid is about an edge, as about that of a block: walls beside the particle then lie behind it. */
+MPS_ROW bool mps__is_outer(const int dim, const mps_view *v, int64_t i, double size, double face)
+{
+    const mps_stencil *t = &v->near;
+    double sum = 0;
+    if (face > 0.8 * size || size < MPS__IN_EDGE * (dim == 2 ? v->dp : v->dp * v->dp)) return false;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        if (!mps_is_wall(v, mps_stencil_column(t, p))) continue;
+        const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
+        for (int d = 0; d < dim; d++) sum += q.w * q.d[d] * v->area[i * dim + d];
+    }
+    return sum < 0;
+}
+
+/* Mass of the half cell before a particle, 0: there is none; n: unit normal of the wall. It is dp/2 high over one of its faces: where two or
+ * three faces meet it is a quarter or an eighth of a cell, and outside a block the rest of it. Beside the surface the wetted share counts, in
+ * which particles of the surface have half a cell. */
 MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halves *h, int64_t i,
                               double n[3])
 {
     const mps_stencil *t = &v->near;
-    const double *area = v->area + i * dim, face = dim == 2 ? v->dp : v->dp * v->dp;
-    bool any = false, surface = false;
+    const double *area = v->area + i * dim, cell = dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp;
     if (!mps_is_wall(v, i) || mps_region_of(h->region, i) == MPS_REGION_DRY) return 0;
-    double size = 0;
+    double size = 0, all = 0, surface = 0;
     for (int d = 0; d < dim; d++) size += area[d] * area[d];
     size = sqrt(size);
     if (size == 0) return 0;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int64_t j = mps_stencil_column(t, p);
         if (!mps__is_about(v, h, j)) continue;
-        any = true;
-        surface = surface || mps_region_of(h->region, j) == MPS_REGION_SURFACE;
+        const double w = mps_stencil_pair_dim(dim, t, i, p).w;
+        all += w;
+        if (mps_region_of(h->region, j) == MPS_REGION_SURFACE) surface += w;
     }
+    if (!(all > 0)) return 0;
     for (int d = 0; d < dim; d++) n[d] = area[d] / size;
-    const double share = surface && h->wetted ? h->wetted[i] : 1;
-    return any ? h->density[i] * share * 0.5 * v->dp * size * mps_smaller(1, size / face) : 0;
+    const double share = surface > 0 && h->wetted ? h->wetted[i] * (1 - 0.5 * surface / all) : 1,
+                 face = mps__face_area(dim, v, i, size), volume = 0.5 * v->dp * face;
+    const bool outer = mps__is_outer(dim, v, i, size, face);
+    return h->density[i] * share * (outer ? cell - volume : volume);
 }
 
-/* Acceleration of that cell: that of the wall, `tank`, along the normal, and along the face the mean of the liquid about it. */
+/* Acceleration of that cell: that of the wall, `tank`, along the normal; along the face the mean of the liquid about it, brought to the middle of
+ * the cell, dp/4 from the wall. An acceleration by pressures has no curl: across a wall its part along the face changes as the part along the
+ * normal does along the wall, by n x `turn`. */
 MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps__halves *h,
                                     int64_t i, const double *tank, const double n[3], double out[3])
 {
     const mps_stencil *t = &v->near;
-    double weight = 0, across = 0;
+    double weight = 0, away = 0, across = 0, change[3];
     for (int d = 0; d < 3; d++) out[d] = 0;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int64_t j = mps_stencil_column(t, p);
         if (!mps__is_about(v, h, j)) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         weight += q.w;
-        for (int d = 0; d < dim; d++) out[d] += q.w * h->a[j * h->stride + d];
+        for (int d = 0; d < dim; d++) {
+            away += q.w * q.d[d] * n[d];
+            out[d] += q.w * h->a[j * h->stride + d];
+        }
     }
-    for (int d = 0; d < dim && weight > 0; d++) out[d] /= weight;
+    mps__cross(n, h->turn, change);
+    for (int d = 0; d < dim && weight > 0; d++)
+        out[d] = out[d] / weight - (away / weight - 0.25 * v->dp) * change[d];
     for (int d = 0; d < dim; d++) across += n[d] * (tank[d] - out[d]);
     for (int d = 0; d < dim; d++) out[d] += across * n[d];
 }

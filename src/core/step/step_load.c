@@ -121,7 +121,10 @@ static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
                                 .region = a->region,
                                 .a = a->acceleration,
                                 .stride = s->view->dim}};
+    double accel[6];
+    mps__step_acceleration(mps__step_of(s), accel);
     memcpy(f.at, mps__step_of(s)->load.at, sizeof f.at);
+    memcpy(f.halves.turn, accel + 3, sizeof f.halves.turn);
     mps_stage_sum(s, 6, &add_halves, &f, force);
 }
 

@@ -200,6 +200,7 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
             tank_acceleration(dim, f->column + k, arm, tank);
             mps__halves halves = f->halves;
             halves.a = a;
+            if (f->column + k >= dim) halves.turn[dim == 2 ? 2 : f->column + k - 3] = 1;
             mps__half_acceleration(dim, v, &halves, i, tank, n, force);
         }
         for (int d = 0; d < dim; d++) force[d] *= mass;
