@@ -151,6 +151,18 @@ fmu_status fmu_state_bytes(fmu *f, fmu_state *state, const unsigned char **bytes
     return FMU_OK;
 }
 
+fmu_status fmu_state_write(fmu *f, fmu_state *state, void *out, size_t size)
+{
+    const unsigned char *bytes;
+    size_t needed;
+    if (fmu_state_bytes(f, state, &bytes, &needed) != FMU_OK) return FMU_ERROR;
+    if (size < needed)
+        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
+                        needed);
+    memcpy(out, bytes, needed);
+    return FMU_OK;
+}
+
 /* Bytes may come from anywhere. @return NULL, or what is wrong */
 static const char *check_head(const fmu *f, const head *h)
 {
