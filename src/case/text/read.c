@@ -21,12 +21,9 @@ static tree_node *find(const tree_node *map, const char *key)
 static void refuse_unknown(mps_case *c, const tree_node *node)
 {
     char path[PATH_ROOM];
-    const bool time = (node->units & UNIT_TIME) != 0, share = strchr(node->text, '%') != NULL;
+    const bool time = (node->units & UNIT_TIME) != 0; /* else a length: dp is known everywhere */
     mps__case_say(c, node, false, "%s: '%s' is not known here; write a %s",
-                  mps__tree_path(node, path, sizeof path),
-                  time    ? "T1"
-                  : share ? "%"
-                          : "dp",
+                  mps__tree_path(node, path, sizeof path), time ? "T1" : "%",
                   time ? "time in s" : "length in m");
 }
 
