@@ -23,10 +23,9 @@ const option cli_options[] = {
      offsetof(choices, overwrite)},
     {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
      offsetof(choices, resume)},
-    {HAS_QUIET, "--quiet", 'q', NULL, "print failures only", OPTION_FLAG,
-     offsetof(choices, quiet)},
-    {HAS_PROFILE, "--profile", 0, NULL, "print the time that each part of a step takes", OPTION_FLAG,
-     offsetof(choices, profile)},
+    {HAS_QUIET, "--quiet", 'q', NULL, "print failures only", OPTION_FLAG, offsetof(choices, quiet)},
+    {HAS_PROFILE, "--profile", 0, NULL, "print the time that each part of a step takes",
+     OPTION_FLAG, offsetof(choices, profile)},
     {HAS_MPI, "--mpi", 0, NULL, "one run on all processes that mpirun starts", OPTION_FLAG,
      offsetof(choices, mpi)}};
 

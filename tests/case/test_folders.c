@@ -34,9 +34,12 @@ static void advice(void **state)
     static const struct {
         int error;
         const char *words;
-    } all[] = {{EACCES, "change the permissions of this one"}, {EPERM, "change the permissions"},
-               {EROFS, "the disk can only be read"},          {ENOSPC, "the disk is full"},
-               {EDQUOT, "the disk is full"},                  {EIO, "must be a folder"}};
+    } all[] = {{EACCES, "change the permissions of this one"},
+               {EPERM, "change the permissions"},
+               {EROFS, "the disk can only be read"},
+               {ENOSPC, "the disk is full"},
+               {EDQUOT, "the disk is full"},
+               {EIO, "must be a folder"}};
     (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         const char *text = mps__folder_advice(all[k].error);
@@ -62,13 +65,13 @@ static void removed(void **state)
                                        "run/frames/frames_1234567_12345.vtp.tmp",
                                        "run/frames/frames_000002.pvtp",
                                        "run/frames/frames_000002.pvtp.tmp"},
-                      *const stays[] = {"run/notes.txt",
-                                        "run/picture_.png",
-                                        "run/picture_1.jpg",
-                                        "run/my_picture_1.png",
-                                        "run/frames/frames_12345.vtp",
-                                        "run/frames/frames_000001_3.vtp",
-                                        "run/frames/frames_000001_0003x.vtp"};
+                             *const stays[] = {"run/notes.txt",
+                                               "run/picture_.png",
+                                               "run/picture_1.jpg",
+                                               "run/my_picture_1.png",
+                                               "run/frames/frames_12345.vtp",
+                                               "run/frames/frames_000001_3.vtp",
+                                               "run/frames/frames_000001_0003x.vtp"};
     char error[1000] = "";
     folder f;
     (void)state;

@@ -85,13 +85,13 @@ static void many_columns(void **state)
     free(panel);
     size_t used = (size_t)snprintf(text, sizeof text, TANK WATER "sensors:\n");
     for (int k = 0; k < 255; k++)
-        used += (size_t)snprintf(text + used, sizeof text - used,
-                                 "  a%d: {pressure: %.3f 0.1 m}\n", k, 0.1 + 0.003 * k);
-    snprintf(text + used, sizeof text - used,
-             "  P: {panel: [0 0.2 m, 0 0.5 m], cells: 20}\n" END);
-    TELLS(text, "a254: pressure at (0.862, 0.1) m\n          P_1: wall pressure",
-          "\n          .. and 18 more cells, to\n          .. and 2 more columns, which the drawing "
-          "leaves out too\n");
+        used += (size_t)snprintf(text + used, sizeof text - used, "  a%d: {pressure: %.3f 0.1 m}\n",
+                                 k, 0.1 + 0.003 * k);
+    snprintf(text + used, sizeof text - used, "  P: {panel: [0 0.2 m, 0 0.5 m], cells: 20}\n" END);
+    TELLS(
+        text, "a254: pressure at (0.862, 0.1) m\n          P_1: wall pressure",
+        "\n          .. and 18 more cells, to\n          .. and 2 more columns, which the drawing "
+        "leaves out too\n");
 }
 
 /* A tank of more corners than a form has, all on a circle. */
@@ -209,9 +209,11 @@ static void arguments(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(too_many), cmocka_unit_test(many_columns),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(too_many),
+                                       cmocka_unit_test(many_columns),
                                        cmocka_unit_test(fluids_of_one_density),
-                                       cmocka_unit_test(no_level), cmocka_unit_test(arguments),
+                                       cmocka_unit_test(no_level),
+                                       cmocka_unit_test(arguments),
                                        cmocka_unit_test(too_many_corners)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

@@ -4,7 +4,7 @@
 #include <sys/stat.h>
 
 #define HEAD "mps: 1\ndp: 4 mm\n"
-#define CASE                                                                               \
+#define CASE                                                                                    \
     HEAD "tank: {size: 0.8 0.5 m}\nfill: [{water: {depth: 0.1 m}}, {air: rest}]\nmodel: mmps\n" \
          "run: {until: 5 s}\n"
 /* The value of line 3, which is a title unless it begins with a key. */
@@ -145,7 +145,8 @@ static void written(void **state)
 
 /* ---- values at paths */
 
-#define ROLLS CASE "motion: {roll: [{amplitude: 1 deg, period: 1 s}, {amplitude: 2 deg, period: 2 s}]}\n"
+#define ROLLS \
+    CASE "motion: {roll: [{amplitude: 1 deg, period: 1 s}, {amplitude: 2 deg, period: 2 s}]}\n"
 
 static void sets_of_lists(void **state)
 {
@@ -153,8 +154,8 @@ static void sets_of_lists(void **state)
                                        NULL};
     static const char *const whole[] = {"motion.roll.1={amplitude: 9 deg, omega: 3 rad/s}",
                                         "fill.water={depth: 9 %}", NULL};
-    static const char *const other[] = {"fill.oil={depth: 3 %}",
-                                        "fluids.oil={density: 900 kg/m3}", NULL};
+    static const char *const other[] = {"fill.oil={depth: 3 %}", "fluids.oil={density: 900 kg/m3}",
+                                        NULL};
     static const char *const fresh[] = {"fill.water.depth=10 %", NULL};
     (void)state;
     mps_case *c = good(ROLLS, some);
@@ -278,8 +279,7 @@ static void large_files(void **state)
     assert_true(kit_has(c, 0, 0, "it is larger than 1 MB; a case file is a text"));
     mps_case_destroy(c);
     write_file(path, sizeof path, folder, "page.HTM",
-               "<script type=\"text/yaml\" id=\"case\">" CASE
-               "title: \"a<\\\\b\"\n</script>\n");
+               "<script type=\"text/yaml\" id=\"case\">" CASE "title: \"a<\\\\b\"\n</script>\n");
     assert_int_equal(mps_case_read(path, 0, NULL, &c), MPS_OK);
     has(c, "title: \"a<\\\\b\"\n");
     mps_case_destroy(c);
@@ -308,12 +308,18 @@ static void at_the_root(void **state)
 
 static void sweeps(void **state)
 {
-    static const char *const wrong[] = {"1 to 2 mm",           "1 step 2 to 3 mm",
-                                        "1 mm to 2 cm step 1 mm", "a to b step c mm",
-                                        "1 to 2000 step 1 mm", "{a: 1}",
-                                        "1 to 2 step 0 mm",    "[[1 mm]]",
-                                        "[]",                  "1 to 1.2.3 step 1 mm",
-                                        "1 to 2-3 step 1 mm",  "1 to 2 step 1 mm 2"};
+    static const char *const wrong[] = {"1 to 2 mm",
+                                        "1 step 2 to 3 mm",
+                                        "1 mm to 2 cm step 1 mm",
+                                        "a to b step c mm",
+                                        "1 to 2000 step 1 mm",
+                                        "{a: 1}",
+                                        "1 to 2 step 0 mm",
+                                        "[[1 mm]]",
+                                        "[]",
+                                        "1 to 1.2.3 step 1 mm",
+                                        "1 to 2-3 step 1 mm",
+                                        "1 to 2 step 1 mm 2"};
     char text[900], value[400];
     mps_case *c;
     (void)state;
@@ -358,9 +364,9 @@ static void sweeps(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(characters),    cmocka_unit_test(syntax),     cmocka_unit_test(numbers),
-        cmocka_unit_test(kinds),         cmocka_unit_test(written),    cmocka_unit_test(sets_of_lists),
-        cmocka_unit_test(wrong_sets),    cmocka_unit_test(chains),     cmocka_unit_test(large_files),
-        cmocka_unit_test(at_the_root),   cmocka_unit_test(sweeps)};
+        cmocka_unit_test(characters),  cmocka_unit_test(syntax),  cmocka_unit_test(numbers),
+        cmocka_unit_test(kinds),       cmocka_unit_test(written), cmocka_unit_test(sets_of_lists),
+        cmocka_unit_test(wrong_sets),  cmocka_unit_test(chains),  cmocka_unit_test(large_files),
+        cmocka_unit_test(at_the_root), cmocka_unit_test(sweeps)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

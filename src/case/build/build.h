@@ -106,7 +106,7 @@ typedef struct build {
     char model[64];
     bool several, paper; /* several phases; to the letter of the papers */
     int32_t fluids, solids, sensors;
-    int32_t unlisted; /* columns that have no place in `sensor` */
+    int32_t unlisted;                /* columns that have no place in `sensor` */
     build_fluid fluid[BUILD_FLUIDS]; /* by phase: of falling density */
     build_tank tank;
     build_solid solid[BUILD_SOLIDS];
