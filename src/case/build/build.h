@@ -90,7 +90,7 @@ typedef struct build_modes {
 /* Texts of the library, kept until there is a job. In the memory of the case: the simulation keeps its address. */
 typedef struct build_log {
     mps_job *job;
-    int32_t count;
+    int32_t count, further; /* that are kept; that are only counted */
     int level[BUILD_NOTES];
     char text[BUILD_NOTES][2 * BUILD_TEXT];
 } build_log;

@@ -117,6 +117,9 @@ static void write_log(const writer *w, const build *b)
         first = false;
         fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
     }
+    if (b->log->further == 0) return;
+    heading(w, "");
+    fprintf(w->file, ".. and %d more messages like these\n", (int)b->log->further);
 }
 
 /* A text from which something is left out because memory ran out is no text. @return status is MPS_OK */
