@@ -23,12 +23,13 @@ static void many_harmonics(void **state)
 {
     static const char spectrum[] =
         "    - {jonswap: {significant: 1 deg, peak: 1 s, components: 1000}}\n";
-    char text[2000] = TOP BOX "motion:\n  roll:\n";
+    char text[2000];
     built t;
     (void)state;
-    for (int k = 0; k < 6; k++) strcat(text, spectrum);
-    const size_t six = strlen(text);
-    strcat(text, END);
+    size_t six = (size_t)snprintf(text, sizeof text, TOP BOX "motion:\n  roll:\n");
+    for (int k = 0; k < 6; k++)
+        six += (size_t)snprintf(text + six, sizeof text - six, "%s", spectrum);
+    snprintf(text + six, sizeof text - six, END);
     built_make(&t, text, NULL);
     assert_int_equal(t.b.motion->count, 6000);
     built_free(&t);
@@ -163,12 +164,13 @@ static mps_status job_of_text(const char *name, const char *text, int32_t *code)
 /* More messages of the library than are kept are counted, by a run and by a check. */
 static void many_messages(void **state)
 {
-    char text[8000] = TOP BOX "sensors:\n";
+    char text[8000];
     int32_t code;
     (void)state;
-    for (int k = 0; k < 45; k++)
-        sprintf(text + strlen(text), "  P%d: {wall: 0 0 m}\n", k); /* in a corner */
-    strcat(text, END);
+    size_t used = (size_t)snprintf(text, sizeof text, TOP BOX "sensors:\n");
+    for (int k = 0; k < 45; k++) /* in a corner */
+        used += (size_t)snprintf(text + used, sizeof text - used, "  P%d: {wall: 0 0 m}\n", k);
+    snprintf(text + used, sizeof text - used, END);
     assert_int_equal(job_of_text("many.yaml", text, &code), MPS_OK);
     assert_int_equal(code, MPS_EXIT_OK);
     mps_case *c = NULL;
