@@ -105,6 +105,12 @@ static void numbers(void **state)
     memset(digits + 4, 'q', 70);
     is_size(digits, "is no unit; units of a length: |qqqqqqqqqq");
     is_size("[1 m, [2 m]]", "a length is wanted, not a list");
+    memset(digits, '4', 72);
+    memcpy(digits, "1-", 2);
+    digits[72] = '\0';
+    is_size(digits, "is no number; write a list with blanks|'1-4444444444");
+    snprintf(digits, sizeof digits, "1e%065d 2", 1);
+    is_size(digits, "has no unit; a length is wanted, e.g. |'1e0000000000");
     /* blanks of all kinds between them */
     round_trip(HEAD "tank: {size: \"0.8\\t0.5\\r\\n m\"}\nfill: [{water: {depth: 0.25e+0 m}}]\n"
                     "run: {until: 5 s}\n",
@@ -116,6 +122,14 @@ static void kinds(void **state)
     (void)state;
     kit_refused(HEAD "motion: {roll: []}\n", 3, 16, "a map of keys, or a list of such|not a list");
     kit_refused(HEAD "sensors: 3\n", 3, 10, "sensors: a map of names is wanted, not a text");
+    kit_refused(HEAD "sensors: {\"\": {wall: 0 0 m}}\n", 3, 11, "name '': a letter is wanted");
+    kit_refused(HEAD "output: {fill: []}\n", 3, 10, "unknown key 'output.fill'");
+    kit_refused(HEAD "remove: [colision.pair, \"\"]\n", 3, 10, "did you mean 'collision.pair'?");
+    kit_refused(HEAD "remove: [colision.pair, \"\"]\n", 3, 25, "a text is wanted");
+    kit_refused(HEAD "model: [imps]\n", 3, 8, "a text is wanted, not a list");
+    kit_refused(HEAD "settings: {gas.phase: 0.5}\n", 3, 23,
+                "settings.gas.phase: '0.5' is out of its range: whole numbers, 0 ..");
+    kit_refused(HEAD "settings: {gas.phase: -1}\n", 3, 23, "out of its range: whole numbers");
     kit_refused(HEAD "sensors:\n", 0, 0, "sensors: a map of names is wanted, not nothing");
     kit_refused(HEAD "fill: [water]\n", 3, 8, "one fluid with how it is filled in");
     kit_refused(HEAD "fill: []\n", 3, 7, "a list of fluids");
@@ -332,6 +346,8 @@ static void sweeps(void **state)
     kit_refused(CASE "sweep: {dp: 4 mm 8..9 mm}\n", 7, 13, "sweep: dp: '8..9' is no number");
     kit_refused(CASE "sweep: {dp: 4 mm 8 mm and}\n", 7, 13, "'mm and' is no unit");
     kit_refused(CASE "sweep: {settings.gas.sound: 300-340 m/s}\n", 7, 29, "'300-340' is no number");
+    snprintf(text, sizeof text, CASE "sweep: {dp: 1e%0250d mm}\n", 1);
+    kit_refused(text, 7, 13, "values are wanted");
     memset(value, 'q', 300);
     value[300] = '\0';
     snprintf(text, sizeof text, CASE "sweep: {model: [%s]}\n", value);
