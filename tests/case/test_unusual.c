@@ -132,6 +132,74 @@ static void tanks(void **state)
     built_free(&t);
 }
 
+/* ---- models and solvers */
+
+/* The length of the first step [s]. */
+static double first_step(const char *text)
+{
+    built t;
+    mps_step_info info;
+    mps_step_info_init(&info, sizeof info);
+    built_make(&t, text, NULL);
+    if (mps_step(t.b.sim, 1, &info) < 0) fail_msg("%s", mps_sim_error(t.b.sim));
+    built_free(&t);
+    return info.dt;
+}
+
+/* Liquid at rest: 0.06 sqrt(dp/g), half of it with the models of the papers; run.dt_max is the least of all. */
+static void steps(void **state)
+{
+    const double calm = sqrt(0.05 / 9.81);
+    (void)state;
+    same_number(first_step(TOP BOX "run: {until: 1 s, preconditioner: jacobi}\n"), 0.06 * calm,
+                1e-9);
+    same_number(first_step(TOP BOX "model: imps.paper\nrun: {until: 1 s}\n"), 0.03 * calm, 1e-9);
+    same_number(first_step(SPACE "model: imps.paper\nrun: {until: 1 s}\n"), 0.03 * 2 * calm, 1e-9);
+    same_number(first_step(TOP BOX "motion: {sway: {acceleration: 0.1 m/s2}}\n"
+                                   "run: {until: 1 s, dt_max: 0.3 ms}\n"),
+                3e-4, 1e-12);
+    built_refused(TOP BOX "run: {until: 1 s, preconditioner: nothing}\n", 5,
+                  "no preconditioner 'nothing'");
+}
+
+/* ---- checks */
+
+static void check_tells(const char *text, const char *words, const char *more)
+{
+    mps_case *c = NULL;
+    char *told = NULL, *sketch = NULL;
+    const mps_status status = kit_read(text, NULL, &c);
+    char *all = kit_messages(c);
+    if (status != MPS_OK) fail_msg("%s", all);
+    free(all);
+    if (mps_case_check(c, &told, &sketch) != MPS_OK) fail_msg("%s", kit_messages(c));
+    if (!strstr(told, words)) fail_msg("wanted: %s\n%s", words, told);
+    if (more && !strstr(told, more)) fail_msg("wanted: %s\n%s", more, told);
+    free(told);
+    free(sketch);
+    mps_case_destroy(c);
+}
+
+static void checks(void **state)
+{
+    char path[600], text[1600];
+    (void)state;
+    check_tells("mps: 1\ndp: 0.5 mm\ntank: {size: 20 10 mm}\nfill: [{water: {depth: 5 mm}}]\n"
+                "run: {until: 1 s}\n",
+                "dp 500 um", NULL);
+    check_tells(TOP BOX "run: {until: 1e7 s}\n", " h of wall clock: calm to violent", NULL);
+    check_tells(TOP "tank: {size: 1 0.6 m}\n"
+                    "fill: [{water: {depth: 0.3 m, start: {velocity: 1 0 m/s}}}]\n"
+                    "run: {until: 1 s, speed_limit: 1 mm/s}\n",
+                "warning   the first steps fail: ", "allowed");
+    write_table(path, sizeof path, "time[s],roll[deg]\n0,0\n1,1\n3,0\n");
+    snprintf(text, sizeof text, TOP BOX "motion: {file: %s}\nrun: {until: 3 s}\n", path);
+    check_tells(text, "3 rows of ", "1 to 2 s apart");
+    unlink(path);
+    check_tells(TOP BOX "sensors: {F: {force: tank, component: mz}, a: {measure: speed}}\n" END,
+                "F: moment about z through (0, 0) m", "a: measure\n");
+}
+
 /* ---- runs */
 
 static mps_status job_of_text(const char *name, const char *text, int32_t *code)
@@ -238,7 +306,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(many_harmonics), cmocka_unit_test(wrong_motions),
         cmocka_unit_test(axes_of_tables), cmocka_unit_test(ramp_of_tables),
-        cmocka_unit_test(tanks),          cmocka_unit_test(many_messages),
+        cmocka_unit_test(tanks),          cmocka_unit_test(steps),
+        cmocka_unit_test(checks),         cmocka_unit_test(many_messages),
         cmocka_unit_test(outlines),       cmocka_unit_test(wrong_references)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
