@@ -346,6 +346,13 @@ static void sweeps(void **state)
     kit_refused(CASE "sweep: {dp: 4 mm 8..9 mm}\n", 7, 13, "sweep: dp: '8..9' is no number");
     kit_refused(CASE "sweep: {dp: 4 mm 8 mm and}\n", 7, 13, "'mm and' is no unit");
     kit_refused(CASE "sweep: {settings.gas.sound: 300-340 m/s}\n", 7, 29, "'300-340' is no number");
+    char *many = calloc(1, 8000);
+    assert_non_null(many);
+    size_t used = (size_t)sprintf(many, CASE "sweep: {dp: ");
+    for (int k = 0; k < 1001; k++) used += (size_t)sprintf(many + used, "1 ");
+    sprintf(many + used, "mm}\n");
+    kit_refused(many, 7, 13, "sweep: 1 to 1000 values are wanted");
+    free(many);
     snprintf(text, sizeof text, CASE "sweep: {dp: 1e%0250d mm}\n", 1);
     kit_refused(text, 7, 13, "values are wanted");
     memset(value, 'q', 300);

@@ -200,6 +200,57 @@ static void checks(void **state)
                 "F: moment about z through (0, 0) m", "a: measure\n");
 }
 
+/* Volumes of round tanks; a centre of rotation beside the picture, on each side; a title with marks of XML. */
+static void drawings(void **state)
+{
+    static const char *const centres[] = {"-5 0.3 m", "6 0.3 m", "0.5 4 m", "0.5 -4 m"};
+    char text[900];
+    (void)state;
+    check_tells("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {cylinder: {radius: 0.5 m, length: 1 m}}\n"
+                "fill: [{water: {depth: 0.4 m}}]\n" END,
+                "0.7854 m3 inside", NULL);
+    check_tells("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {sphere: {radius: 0.5 m}}\n"
+                "fill: [{water: {depth: 0.4 m}}]\n" END,
+                "0.5236 m3 inside", NULL);
+    check_tells("mps: 1\ndp: 50 mm\ntank: {sphere: {radius: 0.5 m}}\n"
+                "fill: [{water: {depth: 0.4 m}}]\n" END,
+                "0.7854 m2 inside", NULL);
+    for (int k = 0; k < 4; k++) {
+        mps_case *c = NULL;
+        char *told = NULL, *sketch = NULL;
+        snprintf(text, sizeof text,
+                 TOP BOX "title: \"a<b & 'c'\"\n"
+                         "motion: {centre: %s, roll: {amplitude: 1 deg, period: 1 s}}\n" END,
+                 centres[k]);
+        assert_int_equal(kit_read(text, NULL, &c), MPS_OK);
+        assert_int_equal(mps_case_check(c, &told, &sketch), MPS_OK);
+        assert_non_null(strstr(sketch, "a&lt;b &amp; &#39;c&#39;"));
+        assert_null(strstr(sketch, ">centre</text>"));
+        assert_non_null(strstr(sketch, "; centre of rotation: x "));
+        free(told);
+        free(sketch);
+        mps_case_destroy(c);
+    }
+}
+
+static void fluids(void **state)
+{
+    (void)state;
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {lngas: {density: 450 kg/m3, viscosity: 0.1 "
+                      "mPa s}, lnga: {density: 460 kg/m3, viscosity: 0.1 mPa s}}\n"
+                      "fill: [{lngb: {depth: 0.3 m}}]\n" END,
+                  5, "no fluid has the name 'lngb'; did you mean 'lnga'?");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {oil: {viscosity: 1 mPa s}}\n"
+                      "fill: [{oil: {depth: 0.3 m}}]\n" END,
+                  4, "fluids.oil|density and viscosity are needed");
+    /* of one density in one line: the first of the line is the first phase */
+    check_tells(TOP "tank: {size: 1 0.6 m}\n"
+                    "fluids: {b: {density: 900 kg/m3, viscosity: 2 mm2/s, tension: 0 N/m}, "
+                    "a: {density: 900 kg/m3, viscosity: 1 mm2/s, tension: 0 N/m}}\n"
+                    "fill: [{b: {box: [0 0 m, 0.5 0.3 m]}}, {a: {box: [0.5 0 m, 1 0.3 m]}}]\n" END,
+                "phase 0: b, 900 kg/m3", "phase 1: a, 900 kg/m3");
+}
+
 /* ---- runs */
 
 static mps_status job_of_text(const char *name, const char *text, int32_t *code)
@@ -273,6 +324,28 @@ static void outlines(void **state)
         fail_msg("%s", summary);
 }
 
+/* The unit of a column that has none; what a force is a mean of. */
+static void references(void **state)
+{
+    char path[600], text[1600];
+    int32_t code;
+    (void)state;
+    write_table(path, sizeof path, "t[s],p,angle\n0,1,0.1\n1,2,0.2\n");
+    snprintf(text, sizeof text,
+             TOP BOX "reference:\n  P: {file: %s, unit: kPa}\n"
+                     "  a: {file: %s, columns: [t, angle], unit: rad}\n"
+                     "sensors:\n  P: {wall: 0 0.1 m}\n  F: {force: tank, average: 5 ms}\n"
+                     "  G: {force: tank, average: 0}\n" END,
+             path, path);
+    assert_int_equal(job_of_text("a.yaml", text, &code), MPS_OK);
+    assert_int_equal(code, MPS_EXIT_OK);
+    const char *summary = text_of("unusual", "summary.json");
+    if (!strstr(summary, "mean of the last 0.005 s") || !strstr(summary, "no mean over time"))
+        fail_msg("%s", summary);
+    if (!strstr(summary, "5.72957795")) fail_msg("0.1 rad in degrees: %s", summary);
+    unlink(path);
+}
+
 static void wrong_references(void **state)
 {
     char path[600], text[1600];
@@ -304,10 +377,12 @@ static void wrong_references(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(many_harmonics), cmocka_unit_test(wrong_motions),
-        cmocka_unit_test(axes_of_tables), cmocka_unit_test(ramp_of_tables),
-        cmocka_unit_test(tanks),          cmocka_unit_test(steps),
-        cmocka_unit_test(checks),         cmocka_unit_test(many_messages),
-        cmocka_unit_test(outlines),       cmocka_unit_test(wrong_references)};
+        cmocka_unit_test(many_harmonics),  cmocka_unit_test(wrong_motions),
+        cmocka_unit_test(axes_of_tables),  cmocka_unit_test(ramp_of_tables),
+        cmocka_unit_test(tanks),           cmocka_unit_test(steps),
+        cmocka_unit_test(checks),          cmocka_unit_test(drawings),
+        cmocka_unit_test(fluids),          cmocka_unit_test(references),
+        cmocka_unit_test(many_messages),   cmocka_unit_test(outlines),
+        cmocka_unit_test(wrong_references)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
