@@ -180,13 +180,9 @@ static mps_status create_job(build *b, const mps_job_config *options)
 /* The job says what the library said before. */
 static void say_log(build *b)
 {
-    char text[BUILD_TEXT];
     b->log->job = b->job;
     for (int32_t i = 0; i < b->log->count; i++)
         mps_job_log(b->job, b->log->level[i], b->log->text[i]);
-    if (b->log->further == 0) return;
-    snprintf(text, sizeof text, ".. and %d more messages like these", (int)b->log->further);
-    mps_job_log(b->job, b->log->level[BUILD_NOTES - 1], text);
 }
 
 static build *begin(mps_case *c)
