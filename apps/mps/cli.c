@@ -37,13 +37,12 @@ const option cli_options[] = {
      offsetof(choices, overwrite)},
     {HAS_RESUME, "--resume", 0, NULL, "continue from the checkpoint in the folder", OPTION_FLAG,
      offsetof(choices, resume)},
-    {HAS_QUIET, "--quiet", 'q', NULL, "no progress, no messages but of failures", OPTION_FLAG,
-     offsetof(choices, quiet)},
-    {HAS_PROFILE, "--profile", 0, NULL, "print what each pass of the steps costs", OPTION_FLAG,
-     offsetof(choices, profile)},
+    {HAS_QUIET, "--quiet", 'q', NULL, "print failures only", OPTION_FLAG, offsetof(choices, quiet)},
+    {HAS_PROFILE, "--profile", 0, NULL, "print the time that each part of a step takes",
+     OPTION_FLAG, offsetof(choices, profile)},
     {HAS_DEVICE, "--device", 0, "NAME", "where steps run: cuda, cuda:1; default: here", OPTION_TEXT,
      offsetof(choices, device)},
-    {HAS_MPI, "--mpi", 0, NULL, "one run on the ranks that mpirun starts", OPTION_FLAG,
+    {HAS_MPI, "--mpi", 0, NULL, "one run on all processes that mpirun starts", OPTION_FLAG,
      offsetof(choices, mpi)}};
 
 const int32_t cli_option_count = sizeof cli_options / sizeof *cli_options;

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 enum { CLI_SETS = 64, CLI_FILES = 64 };
 
@@ -111,6 +112,8 @@ void cli_say(const choices *c, const char *format, ...);
 int cli_agree(const choices *c, int code);
 /* The end of a run on all ranks; one of them shows its messages. @return exit code of all */
 int cli_end(const choices *c, int code);
+/* Cases to start from, with their titles. */
+void cli_list_cases(FILE *out);
 /* All that was printed is written. @return code, or that of a failure, which is told */
 int cli_flush(const choices *c, int code);
 /* "surge" of "cases/surge.yaml". */

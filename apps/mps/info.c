@@ -101,7 +101,7 @@ static bool tell_case(const head *h)
 {
     if (strncmp(h->text, "mps:", 4) != 0 && !strstr(h->text, "\nmps:")) return false;
     const char *title = strstr(h->text, "\ntitle:");
-    printf("case%s%.*s; 'mps check' says what it amounts to\n", title ? ": " : "",
+    printf("case%s%.*s; 'mps check' tells what it means\n", title ? ": " : "",
            title ? (int)strcspn(title + 8, "\n") : 0, title ? title + 8 : "");
     return true;
 }

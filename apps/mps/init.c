@@ -42,6 +42,11 @@ static bool is_table_of(const start *table, const start *owner)
 int verb_init(const choices *c)
 {
     char path[1024];
+    if (c->files == 0) {
+        fprintf(stderr, "mps init: NAME is missing; cases to start from:\n");
+        cli_list_cases(stderr);
+        return MPS_EXIT_USAGE;
+    }
     for (const start *s = starts; s->name; s++) {
         if (strcmp(s->name, c->file[0]) != 0) continue;
         snprintf(path, sizeof path, "%s%s", s->name, strchr(s->name, '.') ? "" : ".yaml");

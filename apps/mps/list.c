@@ -19,13 +19,13 @@ static mps_sim *make_sim(void)
 }
 
 /* The second comment line or the title of a case tells what it is. */
-static void list_cases(void)
+void cli_list_cases(FILE *out)
 {
     for (const start *s = starts; s->name; s++) {
         if (strchr(s->name, '.')) continue; /* a table of one of them */
         const char *title = strstr(s->text, "\ntitle: ");
         const int length = title ? (int)strcspn(title + 8, "\n") : 0;
-        printf("%-20s %.*s\n", s->name, length, title ? title + 8 : "");
+        fprintf(out, "%-20s %.*s\n", s->name, length, title ? title + 8 : "");
     }
 }
 
@@ -147,7 +147,7 @@ int verb_list(const choices *c)
         fprintf(stderr, "mps list: no memory\n");
         return MPS_EXIT_FAILED;
     }
-    if (chosen == 0) list_cases();
+    if (chosen == 0) cli_list_cases(stdout);
     if (chosen == 1) code = list_keys(c->files > 1 ? c->file[1] : NULL);
     if (chosen == 2) list_models(sim);
     if (chosen == 3) list_settings(sim);

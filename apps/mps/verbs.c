@@ -23,7 +23,7 @@ static const char STATS_TEXT[] =
 
 static const char REPORT_TEXT[] =
     "A constant of the statistics of impacts can be changed for this page, which names it: with\n"
-    "mps report DIR --set impacts.threshold='6 kPa'. All else of a case needs another run.\n";
+    "mps report DIR --set impacts.threshold='6 kPa'. Other changes of a case need another run.\n";
 
 static const char COMPARE_TEXT[] =
     "Each run is compared with the first one, and with a table where the last argument is a file.\n"
@@ -33,7 +33,7 @@ static const char COMPARE_TEXT[] =
     "the first run that has it.\n";
 
 static const char SERIES_TEXT[] =
-    "Each run has a folder of its own, DIR/001 and so on. The same line again skips the runs that\n"
+    "Each run has a folder of its own, DIR/001 and so on. The same command again skips runs that\n"
     "are done and continues an interrupted one. Ctrl-C ends the present run with a checkpoint, "
     "and\n"
     "no other begins. A run that fails does not stop the others.\n"
@@ -75,35 +75,36 @@ const verb cli_verbs[] = {
     {"sweep", "CASE", "Run all combinations of the case's 'sweep'; a table of 'collect'.", 1, 1,
      HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE, verb_sweep,
      SERIES_TEXT},
-    {"repeat", "CASE", "Run a case with dp and steps within 0.5 %; bands of the largest values.", 1,
-     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE | HAS_COUNT,
+    {"repeat", "CASE",
+     "Run a case several times, spacing and steps within 0.5 %: bands of the largest values.", 1, 1,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE | HAS_COUNT,
      verb_repeat, SERIES_TEXT},
-    {"converge", "CASE", "Run a case with dp times 2, sqrt(2), 1; order of the largest values.", 1,
-     1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE, verb_converge,
+    {"converge", "CASE", "Run a case with spacings of 2, sqrt(2) and 1 dp: order of convergence.",
+     1, 1, HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE, verb_converge,
      SERIES_TEXT},
     {"coefficients", "CASE",
      "Added mass A(w) and damping B(w) of the liquid, by forced oscillations.", 1, 1,
-     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE |
-         HAS_FREQUENCIES,
+     HAS_SET | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE | HAS_FREQUENCIES,
      verb_coefficients, COEFFICIENTS_TEXT},
     {"report", "DIR", "Make report.html of a run again, from its folder.", 1, 1, HAS_SET,
      verb_report, REPORT_TEXT},
     {"stats", "DIR [COLUMN ..]", "Impacts in the pressures of a run: events, peaks, fits.", 1,
      CLI_FILES, HAS_SET, verb_stats, STATS_TEXT},
-    {"compare", "DIR DIR .. [reference.csv]", "Say how the columns of runs differ.", 2, CLI_FILES,
+    {"compare", "DIR DIR .. [reference.csv]", "Tell how the columns of runs differ.", 2, CLI_FILES,
      0, verb_compare, COMPARE_TEXT},
     {"check", "CASE",
-     "Say what a case amounts to, without running it, and draw tank and sensors as SVG.", 1, 1,
+     "Tell what a case means, without a run: counts, volumes, periods, time; draw it as SVG.", 1, 1,
      HAS_SET | HAS_OUT | HAS_QUIET, verb_check, NULL},
-    {"fmu", "CASE", "Make an FMU of a case, a tank for programs that move bodies: CASE.fmu.", 1, 1,
+    {"fmu", "CASE",
+     "Make CASE.fmu, a tank as a module for programs that couple models by the FMI standard.", 1, 1,
      HAS_SET | HAS_OUT | HAS_QUIET | HAS_FMI, verb_fmu, NULL},
     {"init", "NAME",
-     "Write a commented case to start from into NAME.yaml; 'mps list cases' shows the names.", 1, 1,
+     "Write a case with comments to start from into NAME.yaml; without NAME: list the names.", 0, 1,
      HAS_OUT | HAS_OVERWRITE, verb_init, NULL},
     {"list", "[cases|keys [NAME]|models|settings|solvers|units|measures]",
-     "List what there is; of the keys those with a name, e.g. 'mps list keys holes'.", 0, 2, 0,
+     "List names that cases use; 'mps list keys holes' lists the keys with 'holes'.", 0, 2, 0,
      verb_list, NULL},
-    {"info", "FILE", "Say what a file is: case, checkpoint, frame, table, page, surface.", 1, 1, 0,
+    {"info", "FILE", "Tell what a file is: case, checkpoint, frame, table, page, surface.", 1, 1, 0,
      verb_info, NULL},
     {"schema", "", "Print the JSON Schema of case files, for editors.", 0, 0, 0, verb_schema,
      NULL}};

@@ -57,8 +57,8 @@ static bool open_case(fmu *f, const char *resources, const char *token)
     const mps_status status = mps_case_read(path, 0, NULL, &c);
     if (status != MPS_OK) {
         if (c) mps_case_messages_write(c, error, sizeof error);
-        mps_case_destroy(c);
         fmu_tell(f, FMU_ERROR, "%s", c ? error : mps_status_text(status));
+        mps_case_destroy(c);
         return false;
     }
     fmu_token(mps_case_text(c), f->token);

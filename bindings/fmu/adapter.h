@@ -65,6 +65,8 @@ fmu_status fmu_state_restore(fmu *f, fmu_state *state);
 void fmu_state_free(fmu *f, fmu_state *state);
 /* The bytes of a state, owned by it. */
 fmu_status fmu_state_bytes(fmu *f, fmu_state *state, const unsigned char **bytes, size_t *size);
+/* The same bytes to `out`. @param size  of `out`; less than those of the state: an error */
+fmu_status fmu_state_write(fmu *f, fmu_state *state, void *out, size_t size);
 fmu_status fmu_state_read(fmu *f, const unsigned char *bytes, size_t size, fmu_state **state);
 /* The tank stands where `f->hold` is. */
 mps_status fmu_hold(fmu *f);

@@ -239,15 +239,7 @@ fmi2_status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
 
 fmi2_status fmi2SerializeFMUstate(void *c, void *state, char *out, size_t size)
 {
-    fmu *f = ((instance *)c)->tank;
-    const unsigned char *bytes;
-    size_t needed;
-    if (fmu_state_bytes(f, state, &bytes, &needed) != FMU_OK) return FMU_ERROR;
-    if (size < needed)
-        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
-                        needed);
-    memcpy(out, bytes, needed);
-    return FMU_OK;
+    return fmu_state_write(((instance *)c)->tank, state, out, size);
 }
 
 fmi2_status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)

@@ -3,7 +3,6 @@
 #include "fmi3.h"
 #include "adapter.h"
 #include <stdlib.h>
-#include <string.h>
 
 #define EXPORT MPS_API
 
@@ -172,15 +171,7 @@ fmi3_status fmi3SerializedFMUStateSize(void *c, void *state, size_t *size)
 
 fmi3_status fmi3SerializeFMUState(void *c, void *state, uint8_t *out, size_t size)
 {
-    fmu *f = ((instance *)c)->tank;
-    const unsigned char *bytes;
-    size_t needed;
-    if (fmu_state_bytes(f, state, &bytes, &needed) != FMU_OK) return FMU_ERROR;
-    if (size < needed)
-        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
-                        needed);
-    memcpy(out, bytes, needed);
-    return FMU_OK;
+    return fmu_state_write(((instance *)c)->tank, state, out, size);
 }
 
 fmi3_status fmi3DeserializeFMUState(void *c, const uint8_t *bytes, size_t size, void **state)

@@ -136,18 +136,33 @@ static fmu_status go_back(fmu *f, fmu_status status)
     return fmu_refused(f, FMU_ERROR, "state, going back");
 }
 
+/* A state of this instance gets its bytes, unless it has them. */
+static fmu_status need_bytes(fmu *f, fmu_state *state)
+{
+    const fmu_status status = check(f, state);
+    if (status != FMU_OK || state->bytes) return status;
+    if (mps_snapshot_take(f->before) != MPS_OK || mps_snapshot_restore(state->snapshot) != MPS_OK)
+        return fmu_refused(f, FMU_ERROR, "state as bytes");
+    return go_back(f, write_bytes(f, state));
+}
+
 fmu_status fmu_state_bytes(fmu *f, fmu_state *state, const unsigned char **bytes, size_t *size)
 {
-    fmu_status status = check(f, state);
-    if (status == FMU_OK && !state->bytes) {
-        if (mps_snapshot_take(f->before) != MPS_OK ||
-            mps_snapshot_restore(state->snapshot) != MPS_OK)
-            return fmu_refused(f, FMU_ERROR, "state as bytes");
-        status = go_back(f, write_bytes(f, state));
-    }
+    const fmu_status status = need_bytes(f, state);
     if (status != FMU_OK) return status;
     *bytes = state->bytes;
     *size = state->size;
+    return FMU_OK;
+}
+
+fmu_status fmu_state_write(fmu *f, fmu_state *state, void *out, size_t size)
+{
+    const fmu_status status = need_bytes(f, state);
+    if (status != FMU_OK) return status;
+    if (size < state->size)
+        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
+                        state->size);
+    memcpy(out, state->bytes, state->size);
     return FMU_OK;
 }
 

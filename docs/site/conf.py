@@ -17,10 +17,8 @@ html_show_sourcelink = False
 html_copy_source = False
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
-exclude_patterns = ["_build", "gallery/runs"]
 html_extra_path = ["extra"]
 myst_heading_anchors = 4
 pygments_style = "friendly"
 # "myst.header": documents begin a table under a third head where a second would be empty
 suppress_warnings = ["myst.header"]
-nitpicky = False

@@ -113,6 +113,23 @@ static void columns(void **state)
           "P: Largest wall pressure: of the sensors of a row", NULL);
 }
 
+/* A moment is no force: it is about an axis through a place. */
+static void forces(void **state)
+{
+    static const char space[] =
+        "mps: 1\ndim: 3\ndp: 1 m\ntank: {size: 20 12 16 m}\nfill: [{water: {depth: 4 m}}]\n"
+        "sensors: {F: {force: tank, about: 10 3 8 m}}\n" END;
+    (void)state;
+    tells(
+        TANK "sensors: {F: {force: tank, about: 10 3 m}}\n" END,
+        "F_y: force along y on 'tank'\n          F_m: moment about z through (10, 3) m on 'tank'\n",
+        "force about");
+    tells(space,
+          "F_z: force along z on 'tank.'\n          F_mx: moment about x through (10, 3, 8) m",
+          "force about");
+    tells(space, "F_mz: moment about z through (10, 3, 8) m", NULL);
+}
+
 /* A column of a motion that has another name is left out: that must not stay unseen. */
 static void motions(void **state)
 {
@@ -274,9 +291,10 @@ static void drawings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes), cmocka_unit_test(files),   cmocka_unit_test(plates),
-        cmocka_unit_test(sensors), cmocka_unit_test(columns), cmocka_unit_test(motions),
-        cmocka_unit_test(bare),    cmocka_unit_test(periods), cmocka_unit_test(top_rows),
-        cmocka_unit_test(costs),   cmocka_unit_test(rates),   cmocka_unit_test(drawings)};
+        cmocka_unit_test(volumes),  cmocka_unit_test(files),   cmocka_unit_test(plates),
+        cmocka_unit_test(sensors),  cmocka_unit_test(columns), cmocka_unit_test(forces),
+        cmocka_unit_test(motions),  cmocka_unit_test(bare),    cmocka_unit_test(periods),
+        cmocka_unit_test(top_rows), cmocka_unit_test(costs),   cmocka_unit_test(rates),
+        cmocka_unit_test(drawings)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

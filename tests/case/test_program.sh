@@ -54,6 +54,10 @@ done
 expect 2 "is there already" "$program" init tank
 expect 0 "tank.yaml" "$program" init tank --overwrite
 expect 2 "no case with the name" "$program" init tnk
+# without a name: all names, as 'list cases' has them
+expect 2 "mps init: NAME is missing; cases to start from:" "$program" init
+"$program" list cases > names
+tail -n +2 log | cmp -s - names || fail "init without NAME: $(head -3 log)"
 mkdir taken
 echo mine > taken/voyage.csv
 (cd taken && "$program" init ship > /dev/null 2>&1) && fail "init ship beside another voyage.csv"

@@ -42,9 +42,6 @@ static void too_many(void **state)
 {
     char text[8000];
     (void)state;
-    TELLS(TANK WATER
-          "sensors:\n  P: {panel: [0 0.2 m, 0 0.5 m], cells: 255}\n  a: {wall: 0 0.1 m}\n" END,
-          "sensors: more than 256 columns", "test.yaml:7:");
     size_t used = (size_t)snprintf(text, sizeof text,
                                    "mps: 1\ndp: 50 mm\ntank: {size: 7 0.6 m}\n" WATER "solids:\n");
     for (int k = 0; k < 65; k++)
@@ -70,6 +67,31 @@ static void too_many(void **state)
     TELLS("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 1 0.8 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
           "sensors:\n  P: {panel: [0 0 0 m, 0.1 0.2 0.2 m]}\n" END,
           "two points are opposite corners of a panel along the axes");
+}
+
+/* A check lists the first and the last cell of a large panel, and 256 columns in all; it tells how many it leaves out. */
+static void many_columns(void **state)
+{
+    char text[24000];
+    (void)state;
+    TELLS(TANK WATER
+          "sensors:\n  P: {panel: [0 0.2 m, 0 0.5 m], cells: 255}\n  a: {wall: 0 0.1 m}\n" END,
+          "P_1: wall pressure at (0, 0.2006) m", "\n          .. and 253 more cells, to\n",
+          "P_255: wall pressure at (0, 0.4994) m", "P: Wall pressure: mean of the cells",
+          "a: wall pressure at (0, 0.1) m");
+    char *panel = told(TANK WATER "sensors:\n  P: {panel: [0 0.2 m, 0 0.5 m], cells: 16}\n" END);
+    assert_non_null(strstr(panel, "P_9: wall pressure"));
+    assert_null(strstr(panel, "more"));
+    free(panel);
+    size_t used = (size_t)snprintf(text, sizeof text, TANK WATER "sensors:\n");
+    for (int k = 0; k < 255; k++)
+        used += (size_t)snprintf(text + used, sizeof text - used, "  a%d: {pressure: %.3f 0.1 m}\n",
+                                 k, 0.1 + 0.003 * k);
+    snprintf(text + used, sizeof text - used, "  P: {panel: [0 0.2 m, 0 0.5 m], cells: 20}\n" END);
+    TELLS(
+        text, "a254: pressure at (0.862, 0.1) m\n          P_1: wall pressure",
+        "\n          .. and 18 more cells, to\n          .. and 2 more columns, which the drawing "
+        "leaves out too\n");
 }
 
 /* A tank of more corners than a form has, all on a circle. */
@@ -188,8 +210,10 @@ static void arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(too_many),
+                                       cmocka_unit_test(many_columns),
                                        cmocka_unit_test(fluids_of_one_density),
-                                       cmocka_unit_test(no_level), cmocka_unit_test(arguments),
+                                       cmocka_unit_test(no_level),
+                                       cmocka_unit_test(arguments),
                                        cmocka_unit_test(too_many_corners)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

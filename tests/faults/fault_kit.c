@@ -6,6 +6,7 @@
 #include <cairo.h>
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <locale.h>
 #include <mps/mps.h>
 #include <spawn.h>
@@ -110,6 +111,7 @@ FAULT_AFTER(ssize_t, getline, (char **line, size_t *size, FILE *file), (line, si
             fputc(0, file))
 FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
 FAULT(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), ENOSPC, -1)
+FAULT(int, fstat, (int file, struct stat *about), (file, about), EIO, -1)
 FAULT(int, mkdir, (const char *path, mode_t mode), (path, mode), EROFS, -1)
 FAULT(int, rename, (const char *from, const char *to), (from, to), EACCES, -1)
 FAULT(DIR *, opendir, (const char *path), (path), EMFILE, NULL)
@@ -148,6 +150,21 @@ FAULT(cairo_surface_t *, cairo_image_surface_create, (cairo_format_t format, int
 FAULT(cairo_status_t, cairo_surface_write_to_png_stream,
       (cairo_surface_t * surface, cairo_write_func_t put, void *file), (surface, put, file), ENOMEM,
       CAIRO_STATUS_NO_MEMORY)
+
+int __real_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...);
+int __wrap_open(const char *path, int flags, ...)
+{
+    va_list list;
+    if (fails("open", __builtin_return_address(0))) {
+        errno = EACCES;
+        return -1;
+    }
+    va_start(list, flags);
+    const mode_t mode = flags & O_CREAT ? va_arg(list, mode_t) : 0;
+    va_end(list);
+    return __real_open(path, flags, mode);
+}
 
 /* Without waiting for the disk: a run of these tests is not needed after a crash of the machine. */
 int __wrap_fsync(int file);

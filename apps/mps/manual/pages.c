@@ -84,7 +84,7 @@ static const char PROGRAM_END[] =
     "_DIR/frames.pvd_\n\tFrames for ParaView.\n\n"
     "_DIR/checkpoint.mps_\n\tWhere an interrupted run continues.\n\n"
     "# EXAMPLES\n\n"
-    "A case to start from, what it amounts to, and its run on two threads:\n\n"
+    "A case to start from, what it means, and its run on two threads:\n\n"
     "```\nmps init tank\nmps check tank.yaml\nmps run tank.yaml -j 2\n```\n\n"
     "A finer spacing, without a change of the file:\n\n"
     "```\nmps run tank.yaml --set 'dp=5 mm' -o tank\\_5\n```\n\n"

@@ -62,6 +62,8 @@ typedef struct build_sensor {
     char name[BUILD_NAME];
     sensor_kind kind;
     double at[3], normal[3], diameter;
+    int32_t component; /* of a force: behind the forces are its moments */
+    int32_t further;   /* columns between this one and the next, cells of the same panel */
     char part[BUILD_NAME];
     char about[BUILD_TEXT]; /* SENSOR_VALUE */
 } build_sensor;
@@ -88,7 +90,7 @@ typedef struct build_modes {
 /* Texts of the library, kept until there is a job. In the memory of the case: the simulation keeps its address. */
 typedef struct build_log {
     mps_job *job;
-    int32_t count;
+    int32_t count, further; /* that are kept; that are only counted */
     int level[BUILD_NOTES];
     char text[BUILD_NOTES][2 * BUILD_TEXT];
 } build_log;
@@ -104,6 +106,7 @@ typedef struct build {
     char model[64];
     bool several, paper; /* several phases; to the letter of the papers */
     int32_t fluids, solids, sensors;
+    int32_t unlisted;                /* columns that have no place in `sensor` */
     build_fluid fluid[BUILD_FLUIDS]; /* by phase: of falling density */
     build_tank tank;
     build_solid solid[BUILD_SOLIDS];

@@ -110,6 +110,9 @@ static void write_log(const writer *w, const build *b)
         first = false;
         fprintf(w->file, "%s%s\n", b->log->level[i] ? "warning: " : "", b->log->text[i]);
     }
+    if (b->log->further == 0) return;
+    mps__check_heading(w, "");
+    fprintf(w->file, ".. and %d more messages like these\n", (int)b->log->further);
 }
 
 /* A text from which something is left out because memory ran out is no text. @return status is MPS_OK */
@@ -278,30 +281,52 @@ static void write_motion(const writer *w, const build *b)
     }
 }
 
+/* A force is along an axis; a moment is about one, which goes through a place. */
+static void write_force(const writer *w, const build *b, const build_sensor *s)
+{
+    const bool moment = s->component >= b->dim;
+    const int axis = !moment ? s->component : b->dim == 3 ? s->component - 3 : 2;
+    fprintf(w->file, moment ? "moment about %c through " : "force along %c", "xyz"[axis]);
+    if (moment) mps__check_place(w, b, s->at);
+}
+
+static void write_sensor(const writer *w, const build *b, const build_sensor *s)
+{
+    static const char *const kind[] = {"wall pressure", "pressure", "gauge"};
+    fprintf(w->file, "%s: ", s->name);
+    if (s->kind == SENSOR_VALUE)
+        fprintf(w->file, "%s", s->about);
+    else if (s->kind == SENSOR_MEASURE)
+        fprintf(w->file, "measure");
+    else if (s->kind == SENSOR_FORCE)
+        write_force(w, b, s);
+    else {
+        fprintf(w->file, "%s at ", kind[s->kind]);
+        mps__check_place(w, b, s->at);
+    }
+    if (s->part[0]) fprintf(w->file, " on '%s'", s->part);
+    if (s->kind == SENSOR_WALL) fprintf(w->file, ", %.4g m wide", s->diameter);
+    const double off = s->kind == SENSOR_WALL && strncmp(s->part, "tank", 4) == 0
+                           ? fabs(mps__form_inside(&b->tank.form, s->at))
+                           : 0;
+    if (!b->tank.file && off > 1e-6 * b->dp)
+        fprintf(w->file, "; its place is %.3g m off the wall", off);
+    fprintf(w->file, "\n");
+}
+
 static void write_sensors(const writer *w, const build *b)
 {
-    static const char *const kind[] = {"wall pressure", "pressure", "gauge", "force", "measure"};
     for (int32_t i = 0; i < b->sensors; i++) {
-        const build_sensor *s = &b->sensor[i];
         mps__check_heading(w, i ? "" : "sensors");
-        if (s->kind == SENSOR_VALUE) {
-            fprintf(w->file, "%s: %s\n", s->name, s->about);
-            continue;
-        }
-        fprintf(w->file, "%s: %s", s->name, kind[s->kind]);
-        if (s->kind != SENSOR_MEASURE) {
-            fprintf(w->file, s->kind == SENSOR_FORCE ? " about " : " at ");
-            mps__check_place(w, b, s->at);
-        }
-        if (s->part[0]) fprintf(w->file, " on '%s'", s->part);
-        if (s->kind == SENSOR_WALL) fprintf(w->file, ", %.4g m wide", s->diameter);
-        const double off = s->kind == SENSOR_WALL && strncmp(s->part, "tank", 4) == 0
-                               ? fabs(mps__form_inside(&b->tank.form, s->at))
-                               : 0;
-        if (!b->tank.file && off > 1e-6 * b->dp)
-            fprintf(w->file, "; its place is %.3g m off the wall", off);
-        fprintf(w->file, "\n");
+        write_sensor(w, b, &b->sensor[i]);
+        if (b->sensor[i].further == 0) continue;
+        mps__check_heading(w, "");
+        fprintf(w->file, ".. and %d more cells, to\n", (int)b->sensor[i].further);
     }
+    if (b->unlisted == 0) return;
+    mps__check_heading(w, "");
+    fprintf(w->file, ".. and %d more columns, which the drawing leaves out too\n",
+            (int)b->unlisted);
 }
 
 /* ---- what it costs ---- */

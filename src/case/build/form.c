@@ -157,13 +157,9 @@ double mps__form_volume(const form *s)
     const double pi = acos(-1.0), r = s->radius, disc = pi * r * r;
     const int across = s->kind == FORM_POLYGON && s->sideways ? 0 : 2;
     const double depth = s->dim == 3 ? s->hi[across] - s->lo[across] : 1;
-    double length = 0;
     switch (s->kind) {
     case FORM_POLYGON:
         return fabs(mps__form_polygon_area(s)) * depth;
-    case FORM_ROD:
-        for (int d = 0; d < 3; d++) length += pow(s->end[1][d] - s->end[0][d], 2);
-        return disc * sqrt(length);
     case FORM_TUBE:
         return disc * (s->length + 4.0 / 3 * s->heads);
     case FORM_BALL:

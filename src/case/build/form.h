@@ -34,7 +34,7 @@ double mps__form_body(void *user, const double *x);
 void mps__form_box(form *s);
 /* Area of a polygon, > 0 where its points are counterclockwise [m2]. */
 double mps__form_polygon_area(const form *s);
-/* Volume of the shape [m3], in 2-D area [m2]. */
+/* Volume of the shape of a tank [m3], in 2-D area [m2]; no tank is a rod. */
 double mps__form_volume(const form *s);
 /* The part of it below a level y; of boxes and polygons, NAN of others. */
 double mps__form_volume_below(const form *s, double y);

@@ -9,23 +9,13 @@ const char *const mps__degrees[MOTION_DEGREES] = {"surge", "sway", "heave", "rol
 
 /* ---- reading ---- */
 
-/* omega, from whichever of the three is given; NAN after a message. */
-static double read_omega(build *b, const build_motion *m, const tree_node *node, const char *name)
+/* omega, from whichever of the three is given: the reader has seen to it that it is one. */
+static double read_omega(build *b, const tree_node *node)
 {
     static const char *const key[] = {"omega", "period", "frequency"};
     const double turn = 2 * acos(-1.0);
-    int chosen = -1;
-    for (int i = 0; i < 3; i++) {
-        if (!mps__tree_find(node, key[i])) continue;
-        if (chosen >= 0)
-            mps__case_say(b->c, mps__tree_find(node, key[i]), false,
-                          "%s.%s: give one of omega, period and frequency", m->of, name);
-        chosen = i;
-    }
-    if (chosen < 0)
-        mps__case_say(b->c, node, false, "%s.%s: omega, period or frequency is needed", m->of,
-                      name);
-    const double value = chosen < 0 ? NAN : mps__read_number(b->c, node, key[chosen], NAN);
+    const int chosen = mps__build_kind(node, key, 3);
+    const double value = mps__read_number(b->c, node, key[chosen], NAN);
     return chosen == 0 ? value : chosen == 1 ? turn / value : turn * value;
 }
 
@@ -39,7 +29,6 @@ static double read_ramp(build *b, const tree_node *node, double omega)
 
 static void read_harmonic(build *b, build_motion *m, const tree_node *node, int32_t degree)
 {
-    const char *name = mps__degrees[degree];
     const tree_node *spectrum = mps__tree_find(node, "jonswap");
     mps_harmonic h = {.dof = degree};
     if (m->count == MOTION_HARMONICS) {
@@ -60,16 +49,13 @@ static void read_harmonic(build *b, build_motion *m, const tree_node *node, int3
     }
     h.form = mps__read_choice(b->c, node, "form", 0);
     h.amplitude = mps__read_number(b->c, node, "amplitude", NAN);
-    h.omega = read_omega(b, m, node, name);
+    h.omega = read_omega(b, node);
     if (mps__tree_find(node, "slope"))
         h.amplitude = mps__read_number(b->c, node, "slope", NAN) * b->gravity / (h.omega * h.omega);
     if (h.form == 0) h.phase = mps__read_number(b->c, node, "phase", 0);
     if (mps__case_failed(b->c)) return;
     h.ramp = read_ramp(b, node, h.omega);
-    if (isnan(h.amplitude))
-        mps__case_say(b->c, node, false, "%s.%s: amplitude is needed", m->of, name);
-    else
-        m->harmonic[m->count++] = h;
+    m->harmonic[m->count++] = h;
 }
 
 void mps__harmonics_read(build *b, build_motion *m, const tree_node *node, int32_t degree)

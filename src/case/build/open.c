@@ -71,7 +71,10 @@ static void keep(void *user, int level, const char *text)
         mps_job_log(log->job, level, text);
         return;
     }
-    if (log->count == BUILD_NOTES) return;
+    if (log->count == BUILD_NOTES) {
+        log->further++;
+        return;
+    }
     log->level[log->count] = level;
     snprintf(log->text[log->count++], sizeof log->text[0], "%s", text);
 }

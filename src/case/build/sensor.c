@@ -15,7 +15,10 @@ void mps__sensor_say(const sensing *s, const char *key, const char *text)
 
 static build_sensor *note(build *b, const char *name, sensor_kind kind)
 {
-    if (b->sensors == BUILD_SENSORS) return NULL;
+    if (b->sensors == BUILD_SENSORS) {
+        b->unlisted++;
+        return NULL;
+    }
     build_sensor *s = &b->sensor[b->sensors++];
     *s = (build_sensor){.kind = kind};
     snprintf(s->name, sizeof s->name, "%s", name);
@@ -23,7 +26,7 @@ static build_sensor *note(build *b, const char *name, sensor_kind kind)
 }
 
 /* Where the probe of this name has come to lie. */
-static void note_probe(build *b, const char *name, const mps_probe *probe)
+static void note_probe(build *b, const char *name, const mps_probe *probe, int32_t component)
 {
     static const sensor_kind kind[] = {SENSOR_WALL, SENSOR_FLUID, SENSOR_GAUGE, SENSOR_FORCE};
     build_sensor *s = note(b, name, kind[probe->type]);
@@ -35,6 +38,7 @@ static void note_probe(build *b, const char *name, const mps_probe *probe)
     memcpy(s->at, info.at, sizeof s->at);
     memcpy(s->normal, info.normal, sizeof s->normal);
     s->diameter = info.diameter;
+    s->component = component;
     snprintf(s->part, sizeof s->part, "%s", info.part);
 }
 
@@ -64,7 +68,10 @@ bool mps__sensor_add(const sensing *s, mps_probe *probe, int32_t component, doub
     if (b->job ? !mps__build_try_job(b, status, s->map, what)
                : !mps__build_try(b, status, s->map, what))
         return false;
-    note_probe(b, name, probe);
+    if (s->between && b->unlisted == 0)
+        b->sensor[b->sensors - 1].further++;
+    else
+        note_probe(b, name, probe, component);
     return true;
 }
 
@@ -235,11 +242,8 @@ static void add_sensor(build *b, const tree_node *map)
     static void (*const add[])(const sensing *) = {
         add_wall,  mps__sensor_panel, mps__sensor_row,  add_fluid,
         add_gauge, mps__sensor_force, mps__sensor_load, add_measure};
-    const sensing s = {b, map};
-    if (b->sensors == BUILD_SENSORS)
-        mps__case_say(b->c, map, false, "sensors: more than %d columns", BUILD_SENSORS);
-    else
-        add[mps__build_kind(map, kind, 8)](&s);
+    const sensing s = {b, map, false};
+    add[mps__build_kind(map, kind, 8)](&s);
 }
 
 void mps__build_sensors(build *b)

@@ -8,6 +8,7 @@
 typedef struct sensing {
     build *b;
     const tree_node *map; /* its key is the name of the sensor */
+    bool between;         /* a cell, neither the first nor the last of many: it is not listed */
 } sensing;
 
 void mps__sensor_say(const sensing *s, const char *key, const char *text);

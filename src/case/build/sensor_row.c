@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { CELLS_MOST = 1000 };
+enum { CELLS_MOST = 1000, CELLS_LISTED = 16 };
 
 /* Words of sensors.*.take. */
 enum { TAKE_LARGEST, TAKE_MEAN, TAKE_PLACE };
@@ -45,10 +45,11 @@ static bool add_cells(const sensing *s, mps_probe *probe, double (*at)[3], row *
     char name[2 * BUILD_NAME];
     bool done = true;
     for (int32_t i = 0; done && i < r->count; i++) {
+        const bool between = r->count > CELLS_LISTED && i > 0 && i < r->count - 1;
         memcpy(probe->at, at[i], sizeof probe->at);
         snprintf(name, sizeof name, "%s_%d", s->map->key, (int)i + 1);
         if (columns) {
-            done = mps__sensor_add(s, probe, 0, 0, name);
+            done = mps__sensor_add(&(sensing){b, s->map, between}, probe, 0, 0, name);
             if (done) r->id[i] = mps__sensor_id(b, name);
         } else {
             probe->name = name;

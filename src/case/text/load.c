@@ -229,7 +229,8 @@ const char *mps__file_path(mps_case *c, const tree_node *node)
 static void settle_sweep(tree_node *root, int32_t count, const char *const *sets)
 {
     tree_node *sweep = mps__tree_find(root, "sweep");
-    for (int32_t k = 0; sweep && sweep->kind == TREE_MAP && k < count; k++) {
+    if (!sweep || sweep->kind != TREE_MAP || sweep->count == 0) return;
+    for (int32_t k = 0; k < count; k++) {
         const size_t length = strcspn(sets[k], "=");
         for (tree_node *n = sweep->first, *next; n; n = next) {
             next = n->next;
@@ -237,7 +238,7 @@ static void settle_sweep(tree_node *root, int32_t count, const char *const *sets
                 mps__tree_remove(sweep, n);
         }
     }
-    if (sweep && sweep->kind == TREE_MAP && sweep->count == 0) mps__tree_remove(root, sweep);
+    if (sweep->count == 0) mps__tree_remove(root, sweep);
 }
 
 static mps_status finish(mps_case *c, tree_node *root, int32_t count, const char *const *sets,
@@ -260,8 +261,6 @@ static mps_status finish(mps_case *c, tree_node *root, int32_t count, const char
 
 static mps_status begin(int32_t count, const char *const *sets, mps_case **out)
 {
-    if (!out) return MPS_E_ARG;
-    *out = NULL;
     if (count < 0 || (count > 0 && !sets)) return MPS_E_ARG;
     for (int32_t k = 0; k < count; k++)
         if (!sets[k]) return MPS_E_ARG;

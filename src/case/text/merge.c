@@ -220,6 +220,10 @@ void mps__set_text(mps_case *c, tree_node *root, const char *text)
         mps__case_fail(c, at, "path=value is wanted, e.g. 'run.until=60 s'");
         return;
     }
-    tree_node *value = s.size > TREE_BYTES ? NULL : mps__parse(c, source);
+    if (s.size > TREE_BYTES) {
+        mps__case_fail(c, at, "the value is larger than 1 MB");
+        return;
+    }
+    tree_node *value = mps__parse(c, source);
     if (value) mps__set(c, root, path, value, at);
 }

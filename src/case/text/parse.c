@@ -95,8 +95,8 @@ static void refuse_syntax(parse *p, const yaml_parser_t *y)
                        "a tab in the indentation; write blanks");
         return;
     }
-    mps__case_fail(p->c, at, "this is no YAML: %s%s%s", y->problem ? y->problem : "unknown",
-                   y->context ? ", " : "", y->context ? y->context : "");
+    mps__case_fail(p->c, at, "this is no YAML: %s%s%s", y->problem, y->context ? ", " : "",
+                   y->context ? y->context : "");
 }
 
 static void refuse_extra(parse *p, yaml_mark_t mark, const char *what)

@@ -17,17 +17,12 @@ static tree_node *find(const tree_node *map, const char *key)
     return node;
 }
 
-/* The name of the unit that is not known here. */
+/* Where a case needs its first period before it has liquid; dp and the height of the tank are known wherever they are read. */
 static void refuse_unknown(mps_case *c, const tree_node *node)
 {
     char path[PATH_ROOM];
-    const bool time = (node->units & UNIT_TIME) != 0, share = strchr(node->text, '%') != NULL;
-    mps__case_say(c, node, false, "%s: '%s' is not known here; write a %s",
-                  mps__tree_path(node, path, sizeof path),
-                  time    ? "T1"
-                  : share ? "%"
-                          : "dp",
-                  time ? "time in s" : "length in m");
+    mps__case_say(c, node, false, "%s: 'T1' is not known here; write a time in s",
+                  mps__tree_path(node, path, sizeof path));
 }
 
 static int32_t read_node(mps_case *c, const tree_node *node, int32_t most, double *out,

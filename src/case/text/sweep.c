@@ -30,15 +30,17 @@ static bool read_steps(const char *text, steps *s)
     char numbers[VALUE_ROOM], number[VALUE_ROOM];
     double value[3];
     if (!without_words(text, numbers, sizeof numbers)) return false;
+    mps__numbers all = {.text = numbers, .kinds = UNIT_ANY, .most = 3, .out = value};
+    if (!mps__numbers_read(&all) || all.count < 3) return false;
     for (int32_t k = 0; k < 3; k++) {
-        if (!mps__numbers_split(numbers, k, number, sizeof number)) return false;
+        mps__numbers_split(numbers, k, number, sizeof number);
         char *unit = strchr(number, ' ');
         if (k > 0 && strcmp(s->unit, unit ? unit : "") != 0) return false;
         if (snprintf(s->unit, sizeof s->unit, "%s", unit ? unit : "") >= (int)sizeof s->unit)
             return false;
         if (unit) *unit = '\0';
         mps__numbers n = {.text = number, .kinds = UNIT_NONE, .most = 1, .out = &value[k]};
-        if (!mps__numbers_read(&n)) return false;
+        mps__numbers_read(&n);
     }
     const double count = floor((value[1] - value[0]) / value[2] + 1e-9) + 1;
     if (!(count >= 1 && count <= PATH_VALUES)) return false;
@@ -84,6 +86,21 @@ static int32_t count_values(const tree_node *node)
     return count;
 }
 
+/* Numbers are numbers up to the end of the text. */
+static bool reads_as_numbers(mps_case *c, const tree_node *node, const mps__key *key)
+{
+    double value[PATH_VALUES];
+    if (node->kind != TREE_TEXT || has_steps(node) || !is_numbers(key)) return true;
+    mps__numbers all = {.text = node->text,
+                        .kinds = key->units,
+                        .most = PATH_VALUES,
+                        .out = value,
+                        .like = key->example};
+    if (mps__numbers_read(&all)) return true;
+    mps__case_say(c, node, false, "sweep: %s: %s", node->key, all.why);
+    return false;
+}
+
 /* Check each value as if it stood at its path. */
 static void check_values(mps_case *c, const tree_node *node, const mps__key *key, int32_t count)
 {
@@ -121,7 +138,7 @@ void mps__check_sweep(mps_case *c, tree_node *root)
                 c, n, false,
                 "sweep: 1 to %d values are wanted, e.g. '0.8 0.9 T1' or '1 to 2 step 0.1 s'",
                 PATH_VALUES);
-        else
+        else if (reads_as_numbers(c, n, key))
             check_values(c, n, key, count);
         runs *= count;
     }

@@ -51,7 +51,7 @@ MPS_ROW double mps__face_area(const int dim, const mps_view *v, int64_t i, doubl
             along += other[d] * area[d];
         }
         own = sqrt(own);
-        if (own >= MPS__IN_FACE * face) most = fmax(most, along / own);
+        if (own >= MPS__IN_FACE * face) most = mps_larger(most, along / own);
     }
     return most > 0 ? most : size * size / face;
 }
