@@ -36,10 +36,11 @@
  * wall itself pulls in the equation beyond that least pressure, min(0, p_i - value_i). Of a velocity
  * jump, without least pressures, the suction stays. The flow does not change.
  *
- * cover: p' has no place in it. A toe of two rows presses with p' on all faces within the radius,
- * three times its own width, and walls show twice the momentum that the fluid loses. With `cover` a
- * face takes p' on the share only that lies below liquid, covered_share(), and the pressure of the
- * void on the rest. That is 0, or that of trapped gas (gas.pocket), which is in the least pressure. */
+ * cover: p' has no place in it. On all faces within the radius, three times the width of a toe of
+ * two rows, it would show twice the momentum that the fluid loses. So a face takes p' on the share
+ * only that lies below liquid, covered_share(), and the pressure of the void on the rest. That is 0,
+ * or that of trapped gas (gas.pocket), which is in the least pressure. With `cover` 0 a face takes
+ * p' on all of it. */
 #include "helpers.h"
 
 /* Of a wall: another one is beside it up to this squared distance [dp2], and in its plane up to this
@@ -49,7 +50,7 @@ static const double BESIDE = 1.5, PLANE = 0.3, BEFORE = 0.1;
 enum { COVER, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [COVER] = {"cover", "-", "1: the mean pressure acts on the share of a face below liquid alone",
-               MPS_TYPE_FLAG, 0.0, 0.0, 1.0}};
+               MPS_TYPE_FLAG, 1.0, 0.0, 1.0}};
 
 enum { PRESSURE, ACCELERATION, REGION, CORRECTION, CONDITION, VALUE, WALL_PRESSURE, USES };
 static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS},

@@ -20,7 +20,7 @@ static const struct {
              "forward=0 pace=1 aside=1 start=5; "
              "separation.void hold=5; "
              "gradient.corrected second_order=0; "
-             "load.reaction cover=0; "
+             "load.reaction cover=1; "
              "collision.pair distance=0.6 restitution=0 wall_distance=0.5; "
              "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8; "},
     {"imps.paper",
@@ -43,7 +43,7 @@ static const struct {
              "forward=0 pace=1 aside=1 start=5; "
              "gas.compressible phase=1 sound=340 printed=0 conserve=1; "
              "gradient.corrected second_order=0; "
-             "load.reaction cover=0; "
+             "load.reaction cover=1; "
              "drag.lone company=0.333333333 times=3; "
              "collision.pair distance=0.6 restitution=0 wall_distance=0.5; "
              "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8; "},
