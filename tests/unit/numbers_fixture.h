@@ -30,10 +30,10 @@ static inline double random_in(double a, double b)
 /* Of any size, but NaN. */
 static inline double random_double(void)
 {
-    mps_bits b;
-    do b.bits = random_bits();
-    while (b.number != b.number);
-    return b.number;
+    double number;
+    do number = mps_double_of(random_bits());
+    while (number != number);
+    return number;
 }
 
 /* Arguments lo..hi; lo = hi: of any size. */

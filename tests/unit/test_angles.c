@@ -81,11 +81,8 @@ static void bytes(void **state)
     for (int64_t k = 0; k < 100000; k++) {
         const double x = some_angle(k), y = random_in(-1, 1);
         const double results[] = {mps__sin(x), mps__cos(x), mps__atan2(y, x), mps__asin(y)};
-        for (int r = 0; r < 4; r++) {
-            mps_bits b;
-            b.number = results[r];
-            hash = (hash ^ b.bits) * UINT64_C(1099511628211);
-        }
+        for (int r = 0; r < 4; r++)
+            hash = (hash ^ mps_bits_of(results[r])) * UINT64_C(1099511628211);
     }
     if (hash != UINT64_C(0x735894b9e176b96c)) fail_msg("the hash is 0x%016" PRIx64, hash);
 }

@@ -92,9 +92,7 @@ static double slope_angle(double a, double b)
 
 static int is_below_zero(double x)
 {
-    mps_bits b;
-    b.number = x;
-    return (int)(b.bits >> 63);
+    return (int)(mps_bits_of(x) >> 63);
 }
 
 double mps__atan2(double y, double x)
