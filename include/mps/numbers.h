@@ -7,8 +7,8 @@
  *  floating-point exceptions are not set.
  *
  *  Errors in units in the last place of the result, at most: mps_exp() 0.62, mps_expm1() 0.85,
- *  mps_log() 0.88, mps_sinh() 0.75, mps_cosh() 0.68, mps_pow() 0.72; below 2.2e-308 0.76, as results
- *  there are rounded twice. NaN, infinities and zeros are those of annex F of C11.
+ *  mps_log() 0.88, mps_sinh() 0.75, mps_cosh() 0.68, mps_pow() 0.72; below 2.2e-308 0.76, where
+ *  numbers are rounded twice. NaN, infinities and zeros are those of annex F of C11.
  *
  *  Method: the argument is taken to a short interval around 0, where a polynomial through nodes of
  *  Chebyshev holds (scripts/numbers makes its coefficients), and what a sum rounds off is carried
