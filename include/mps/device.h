@@ -96,11 +96,11 @@ typedef struct mps_device_ops {
     /** NULL, or for tests: these values, `number` bytes each, are not read any more. The array is
      *  one of the device or of the host. */
     void (*outdated)(void *self, void *array, uint64_t bytes, uint32_t number);
-    /** NULL, or called by mps_sim_device_set() before all others: the device opens. Non-zero refuses,
-     *  with the text of `failure`. */
+    /** NULL, or called by mps_sim_device_set() before all others: the device opens. Non-zero
+     *  refuses, with the text of `failure`. */
     int (*begin)(void *self);
-    /** NULL, or called when the library needs the device no more: another one was set, or the handle
-     *  is destroyed. Not after a failed mps_sim_device_set(). */
+    /** NULL, or called when the library needs the device no more: another one was set, or the
+     *  handle is destroyed. Not after a failed mps_sim_device_set(). */
     void (*end)(void *self);
 } mps_device_ops;
 

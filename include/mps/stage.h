@@ -427,8 +427,7 @@ MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
  *  @param pockets  >= 0 @param volume  of all [m3, m2 in 2-D]
  *  @param pressure  of the pocket farthest from the ambient pressure, less that [Pa]
  *  @param work  on the liquid in this step [J]
- *  @return 0, or non-zero after a failure (another hook, a number that is not finite; the error is
- *          set) */
+ *  @return 0, or non-zero after a failure (another hook, a number not finite; the error is set) */
 MPS_API int mps_stage_gas(mps_stage *s, int32_t pockets, double volume, double pressure,
                           double work);
 /** Numbers of a model that belong to no particle, e.g. amounts of gas. They last as long as the

@@ -182,7 +182,7 @@ mps_job_config._fields_ = [
     ("picture_t", POINTER(c_double)), ("overwrite", c_int32), ("pieces", c_int32), ("tank_frame", c_int32), ("report", c_int32),
     ("profile", c_int32), ("quiet", c_int32), ("signals", c_int32), ("trace", c_int32), ("film", c_int32), ("threads", c_int32),
     ("page_bytes", c_int64), ("ranks", POINTER(mps_job_ranks)), ("say", mps_job_say_fn), ("say_user", c_void_p),
-    ("error", POINTER(c_char)), ("error_size", c_size_t), ("dp", c_double),
+    ("error", POINTER(c_char)), ("error_size", c_size_t), ("dp", c_double), ("device", c_char_p),
 ]
 mps_job_column._fields_ = [
     ("struct_size", c_uint32), ("flags", c_int32), ("name", c_char_p), ("unit", c_char_p), ("about", c_char_p),
@@ -294,7 +294,8 @@ mps_device_ops._fields_ = [
     ("rows", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch))),
     ("values", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
     ("wait", CFUNCTYPE(c_int, c_void_p)), ("failure", CFUNCTYPE(c_void_p, c_void_p)),
-    ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
+    ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)), ("begin", CFUNCTYPE(c_int, c_void_p)),
+    ("end", CFUNCTYPE(None, c_void_p)),
 ]
 mps_device_info._fields_ = [
     ("struct_size", c_uint32), ("host_calls", c_int32), ("name", c_char_p), ("launches", c_int64), ("waits", c_int64),

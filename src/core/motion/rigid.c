@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Equations of a rigid body, projected on the directions of its free degrees of freedom: T^T (M + A) T q'' = T^T loads. */
 #include "rigid.h"
+#include "angles.h"
 #include <math.h>
 #include <string.h>
 
@@ -11,13 +12,12 @@ static const double ALIKE = 1e-6;
 
 /* A body at a pose, axes of the lab. */
 typedef struct shape {
-    double t
-        [6]
-        [6]; /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    double t[6][6];
     double bias[3]; /* angular acceleration by the rates alone */
     double omega[3], rotation[9];
-    double mass, arm[3],
-        inertia[9]; /* from the centre of motion to that of mass; about the latter */
+    /* from the centre of motion to that of mass; about the latter */
+    double mass, arm[3], inertia[9];
 } shape;
 
 static void multiply(const double m[9], const double v[3], double out[3])
@@ -233,7 +233,7 @@ bool mps__rigid_solve(const mps_body *b, const double centre[3], const mps_motio
         if (mps__rigid_is_free(b, k)) y.dof[y.count++] = k;
     }
     if (mps__rigid_is_free(b, MPS_ROTATE_X) && mps__rigid_is_free(b, MPS_ROTATE_Y) &&
-        fabs(cos(now->value[MPS_ROTATE_Z])) < ALIKE)
+        fabs(mps__cos(now->value[MPS_ROTATE_Z])) < ALIKE)
         return false;
     find_shape(b, centre, now, rate, &s);
     fill_system(b, &s, now, l, &y);
