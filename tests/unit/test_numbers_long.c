@@ -2,7 +2,7 @@
 /* Errors of the functions of mps/numbers.h at many more arguments than test_numbers.c looks at. */
 #include "numbers_fixture.h"
 
-enum { COUNT = 40000000 };
+enum { COUNT = 10000000 };
 
 static void of_one(void **state)
 {
