@@ -15,80 +15,77 @@
 #define MPSK__LARGE(type) (sizeof(type) > MPS__LAUNCH_BY_VALUE)
 #define MPSK__KERNEL(name, type) \
     void name(__typeof__(__builtin_choose_expr(MPSK__LARGE(type), (const type *)0, *(type *)0)) at_)
-#define MPSK__GIVEN(type) const type *const given_ = __builtin_choose_expr(MPSK__LARGE(type), at_, &at_);
+#define MPSK__GIVEN(type) \
+    const type *const given_ = __builtin_choose_expr(MPSK__LARGE(type), at_, &at_);
 #else
 #define MPSK__KERNEL(name, type) void name(const __attribute__((address_space(1))) type *at_)
-#define MPSK__GIVEN(type) const type *const given_ = (const type *)(uintptr_t)at_;
+#define MPSK__GIVEN(type)        const type *const given_ = (const type *)(uintptr_t)at_;
 #endif
 
 #define MPSK__JOIN(unit, name) mpsk_##unit##__##name
 #define MPSK__NAME(unit, name) MPSK__JOIN(unit, name)
 
 /* Both dimensions; `work` is what a row does, with dim_ and i_. */
-#define MPSK__BOTH(name, work)                              \
+#define MPSK__BOTH(name, work)                               \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_3), name, 3, work)
-#define MPSK__ONE(kernel, name, dimension, work)            \
-    MPSK__KERNEL(kernel, name##_given)                      \
-    {                                                       \
-        enum { dim_ = dimension };                          \
-        const int64_t i_ = mps__thread_row();               \
-        MPSK__GIVEN(name##_given)                           \
-        if (i_ >= given_->launch.n) return;                  \
-        work                                                \
+#define MPSK__ONE(kernel, name, dimension, work) \
+    MPSK__KERNEL(kernel, name##_given)           \
+    {                                            \
+        enum { dim_ = dimension };               \
+        const int64_t i_ = mps__thread_row();    \
+        MPSK__GIVEN(name##_given)                \
+        if (i_ >= given_->launch.n) return;      \
+        work                                     \
     }
 
 /* Values of a row into the terms. The loop has a constant end, so that the values stay in registers. */
-#define MPSK__STORE(most)                                                        \
-    _Pragma("unroll")                                                            \
-    for (int k_ = 0; k_ < (most); k_++)                                          \
-        if (k_ < given_->launch.count)                                            \
-            given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
+#define MPSK__STORE(most)                                                                \
+    _Pragma("unroll") for (int k_ = 0; k_ < (most); k_++) if (k_ < given_->launch.count) \
+        given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
 
 #undef MPS_ROWS
-#define MPS_ROWS(name, row, type)                                                \
-    typedef struct name##_given {                                                \
-        mps__launch launch;                                                      \
-        mps_view view;                                                           \
-        type fields;                                                             \
-    } name##_given;                                                              \
-    MPSK__BOTH(name, row(dim_, &given_->view, &given_->fields, i_);)               \
+#define MPS_ROWS(name, row, type)                                    \
+    typedef struct name##_given {                                    \
+        mps__launch launch;                                          \
+        mps_view view;                                               \
+        type fields;                                                 \
+    } name##_given;                                                  \
+    MPSK__BOTH(name, row(dim_, &given_->view, &given_->fields, i_);) \
     static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
 
 #undef MPS_SUMS
-#define MPS_SUMS(name, row, type)                                                \
-    typedef struct name##_given {                                                \
-        mps__launch launch;                                                      \
-        mps_view view;                                                           \
-        type fields;                                                             \
-    } name##_given;                                                              \
-    MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                           \
-               for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] =       \
-                   given_->launch.first;                                          \
-               row(dim_, &given_->view, &given_->fields, i_, own_);                \
-               MPSK__STORE(MPS_PARALLEL_VALUES))                                 \
+#define MPS_SUMS(name, row, type)                                                                \
+    typedef struct name##_given {                                                                \
+        mps__launch launch;                                                                      \
+        mps_view view;                                                                           \
+        type fields;                                                                             \
+    } name##_given;                                                                              \
+    MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                                           \
+               for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] = given_->launch.first; \
+               row(dim_, &given_->view, &given_->fields, i_, own_);                              \
+               MPSK__STORE(MPS_PARALLEL_VALUES))                                                 \
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
 
 #undef MPS__LOOP
-#define MPS__LOOP(name, row, type)                                               \
-    typedef struct name##_given {                                                \
-        mps__launch launch;                                                      \
-        type fields;                                                             \
-    } name##_given;                                                              \
-    MPSK__BOTH(name, row(dim_, &given_->fields, i_);)                             \
+#define MPS__LOOP(name, row, type)                    \
+    typedef struct name##_given {                     \
+        mps__launch launch;                           \
+        type fields;                                  \
+    } name##_given;                                   \
+    MPSK__BOTH(name, row(dim_, &given_->fields, i_);) \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
 #undef MPS__VALUES
-#define MPS__VALUES(name, row, type, sums, maxima)                               \
-    typedef struct name##_given {                                                \
-        mps__launch launch;                                                      \
-        type fields;                                                             \
-    } name##_given;                                                              \
-    MPSK__BOTH(name, double own_[(sums) + (maxima)];                             \
-               for (int k_ = 0; k_ < (sums) + (maxima); k_++) own_[k_] =         \
-                   k_ < (sums) ? 0 : -INFINITY;                                  \
-               row(dim_, &given_->fields, i_, own_);                              \
-               MPSK__STORE((sums) + (maxima)))                                   \
+#define MPS__VALUES(name, row, type, sums, maxima)                                                \
+    typedef struct name##_given {                                                                 \
+        mps__launch launch;                                                                       \
+        type fields;                                                                              \
+    } name##_given;                                                                               \
+    MPSK__BOTH(name, double own_[(sums) + (maxima)];                                              \
+               for (int k_ = 0; k_ < (sums) + (maxima); k_++) own_[k_] = k_ < (sums) ? 0          \
+                                                                                     : -INFINITY; \
+               row(dim_, &given_->fields, i_, own_); MPSK__STORE((sums) + (maxima)))              \
     static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
 
 #endif

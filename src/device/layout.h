@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MPS__LAYOUT(type, bytes)                           \
+#define MPS__LAYOUT(type, bytes)                               \
     _Static_assert(sizeof(type) == (bytes), "size of " #type); \
     _Static_assert(_Alignof(type) == (bytes), "alignment of " #type)
 MPS__LAYOUT(bool, 1);

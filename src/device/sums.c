@@ -5,7 +5,8 @@
 #include <math.h>
 
 typedef struct place {
-    int64_t begin, step, lane; /* the thread's first term, from one to the next; the thread in its group */
+    int64_t begin, step,
+        lane; /* the thread's first term, from one to the next; the thread in its group */
 } place;
 
 static inline __attribute__((always_inline)) place place_of(const mps__launch_join *g)
@@ -22,16 +23,16 @@ static inline int64_t value_of(const mps__launch_join *g)
 }
 
 /* The sums of the threads of a group become one; the first thread stores it. */
-#define JOIN_GROUP(shared, own, out)                                             \
-    shared[at.lane] = own;                                                       \
-    for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2) {            \
-        mps__thread_wait();                                                      \
-        if (at.lane < half) {                                                    \
-            const mps_exact other = shared[at.lane + half];                      \
-            mps_exact_join(&own, &other);                                        \
-            shared[at.lane] = own;                                               \
-        }                                                                        \
-    }                                                                            \
+#define JOIN_GROUP(shared, own, out)                                  \
+    shared[at.lane] = own;                                            \
+    for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2) { \
+        mps__thread_wait();                                           \
+        if (at.lane < half) {                                         \
+            const mps_exact other = shared[at.lane + half];           \
+            mps_exact_join(&own, &other);                             \
+            shared[at.lane] = own;                                    \
+        }                                                             \
+    }                                                                 \
     if (at.lane == 0) ((mps_exact *)(out))[mps__thread_group()] = own;
 
 MPS__SHARED(mps_exact, added, MPS__LAUNCH_GROUP, mpsk_sums__add);

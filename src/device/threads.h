@@ -7,8 +7,9 @@
 #include <stdint.h>
 
 /* Memory that a group of threads shares. OpenCL wants the name of its kernel in front. */
-#define MPS__SHARED(type, name, count, kernel) \
-    static __attribute__((address_space(3), loader_uninitialized)) type name[count] __asm__(#kernel "." #name)
+#define MPS__SHARED(type, name, count, kernel)                     \
+    static __attribute__((address_space(3), loader_uninitialized)) \
+    type name[count] __asm__(#kernel "." #name)
 
 #ifdef __NVPTX__
 static inline int64_t mps__thread_group(void)

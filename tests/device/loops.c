@@ -146,6 +146,7 @@ static void both(job *k, const mps_launch *given, const void *fields, mps_exact 
     l.run = run;
     l.host = k;
     l.fields = k->fields;
+    if (!opencl_knows(o, &l)) return;
     assert_true(l.bytes <= sizeof k->fields);
     memcpy(k->fields, fields, l.bytes);
     translate(&k->twins, l.name, k->fields, l.bytes);
@@ -251,8 +252,8 @@ WRAP(void, mps__host_rows,
      (h, v, rows, fields),
      if (watched(h->parallel, v->n)) view_on_both(v, rows, NULL, fields, 0, false))
 WRAP(void, mps__host_sum,
-     (const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
-      const void *fields, double *sums),
+     (const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add, const void *fields,
+      double *sums),
      (h, v, count, add, fields, sums),
      if (watched(h->parallel, v->n)) view_on_both(v, NULL, add, fields, count, false))
 WRAP(void, mps__host_max,
@@ -261,14 +262,12 @@ WRAP(void, mps__host_max,
      (h, v, count, raise, fields, maxima),
      if (watched(h->parallel, v->n)) view_on_both(v, NULL, raise, fields, count, true))
 WRAP(void, mps_stage_rows, (const mps_stage *s, const mps_rows *rows, const void *fields),
-     (s, rows, fields),
-     if (watched_stage(s)) view_on_both(s->view, rows, NULL, fields, 0, false))
+     (s, rows, fields), if (watched_stage(s)) view_on_both(s->view, rows, NULL, fields, 0, false))
 WRAP(void, mps_stage_sum,
      (const mps_stage *s, int32_t count, const mps_sums *add, const void *fields, double *sums),
      (s, count, add, fields, sums),
      if (watched_stage(s)) view_on_both(s->view, NULL, add, fields, count, false))
 WRAP(void, mps_stage_max,
-     (const mps_stage *s, int32_t count, const mps_sums *raise, const void *fields,
-      double *maxima),
+     (const mps_stage *s, int32_t count, const mps_sums *raise, const void *fields, double *maxima),
      (s, count, raise, fields, maxima),
      if (watched_stage(s)) view_on_both(s->view, NULL, raise, fields, count, true))

@@ -137,14 +137,19 @@ static opencl_kernel *kernel_of(opencl *o, const mps_launch *l)
     return kernel_named(o, name, l->dim);
 }
 
+bool opencl_knows(opencl *o, const mps_launch *l)
+{
+    const opencl_kernel *k = kernel_of(o, l);
+    return k && k->kernel;
+}
+
 /* Run a kernel of one argument, a struct in the memory of the device. */
 static int start(opencl *o, cl_kernel kernel, const char *name, int64_t threads, int64_t group)
 {
     const size_t local = (size_t)group, global = (size_t)((threads + group - 1) / group * group);
     cl_int error = clSetKernelArgSVMPointer(kernel, 0, o->arguments.begin);
     if (!error)
-        error =
-            clEnqueueNDRangeKernel(o->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL);
+        error = clEnqueueNDRangeKernel(o->queue, kernel, 1, NULL, &global, &local, 0, NULL, NULL);
     if (!error) error = clFinish(o->queue);
     return error ? fail(o, "%s: error %d", name, (int)error) : 0;
 }
@@ -200,8 +205,7 @@ double *opencl_terms(opencl *o, int64_t count, int64_t n)
     return (double *)(void *)o->terms.begin;
 }
 
-int opencl_join(opencl *o, int64_t n, int32_t sums, mps_exact *sum, int32_t maxima,
-                double *maximum)
+int opencl_join(opencl *o, int64_t n, int32_t sums, mps_exact *sum, int32_t maxima, double *maximum)
 {
     const double *terms = (const double *)(const void *)o->terms.begin;
     if (sums > 0 && join_sums(o, n, sums, sum)) return 1;
@@ -313,7 +317,8 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     }
     if (l->sums > 0) memcpy(host_sum, sum, (size_t)l->sums * sizeof *sum);
     if (l->maxima > 0) memcpy(host_maximum, maximum, (size_t)l->maxima * sizeof *maximum);
-    if (run_host(o, l, l->sums > 0 ? host_sum : NULL, l->maxima > 0 ? host_maximum : NULL)) return 1;
+    if (run_host(o, l, l->sums > 0 ? host_sum : NULL, l->maxima > 0 ? host_maximum : NULL))
+        return 1;
     const mps__launch head = {.n = l->n,
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
@@ -357,8 +362,7 @@ static bool build(opencl *o, cl_device_id device, const char *bitcode)
     unsigned char *text = read_all(bitcode, &bytes);
     const unsigned char *one = text;
     if (!text) return fail(o, "%s cannot be read", bitcode) == 0;
-    o->program =
-        clCreateProgramWithBinary(o->context, 1, &device, &bytes, &one, &loaded, &error);
+    o->program = clCreateProgramWithBinary(o->context, 1, &device, &bytes, &one, &loaded, &error);
     free(text);
     if (!error) error = clBuildProgram(o->program, 1, &device, "-x spir -spir-std=1.2", NULL, NULL);
     if (error) fail(o, "the device does not take %s: error %d", bitcode, (int)error);

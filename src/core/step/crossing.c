@@ -67,8 +67,7 @@ enum { PIECE, ANY, SPEEDS };
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const liquid *f, int64_t i, double *most)
 {
     const mps_stencil *t = &v->near;
-    const double own = speed2(dim, v, f, i),
-                 more = above(mps_larger(most[PIECE], f->least));
+    const double own = speed2(dim, v, f, i), more = above(mps_larger(most[PIECE], f->least));
     if (own > most[ANY]) most[ANY] = own;
     if (own < more || as_fast(dim, v, f, i, more) < f->piece) return;
     if (as_fast(dim, v, f, i, own) >= f->piece) most[PIECE] = own;
