@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 INCLUDE = Path(__file__).resolve().parent.parent / "include"
+NO_INTERFACE = {"numbers.h"}  # functions for the loops of models in C: other languages have their own
 
 
 @dataclass
@@ -218,7 +219,8 @@ def read() -> Interface:
     """The interface as the headers have it."""
     all_ = Interface()
     for path in _headers():
-        _read_header(path, all_)
+        if path.name not in NO_INTERFACE:
+            _read_header(path, all_)
     return all_
 
 

@@ -53,7 +53,7 @@ MPS_ROW void raise(const int dim, const mps_view *v, const fields *f, int64_t i,
     (void)dim;
     if (v->kind[i] != MPS_FLUID) return;
     const double mu = viscosity_of(v, f->density[i], f->strain[i], i);
-    most[0] = fmax(most[0], mu / f->density[i]);
+    most[0] = mps_larger(most[0], mu / f->density[i]);
 }
 MPS_SUMS(raise_rows, raise, fields)
 

@@ -82,7 +82,7 @@ static double rows_due(const mps_view *v, double t)
 MPS_ROW void raise(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
 {
     (void)dim, (void)v;
-    most[0] = fmax(most[0], f->rows[i]);
+    most[0] = mps_larger(most[0], f->rows[i]);
 }
 MPS_SUMS(raise_rows, raise, fields)
 

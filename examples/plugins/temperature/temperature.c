@@ -49,7 +49,7 @@ typedef struct fields {
 static double viscosity_ratio(const mps_view *v, double temperature)
 {
     const double t = temperature > COLDEST ? temperature : COLDEST;
-    return exp(v->setting[ARRHENIUS] * (1 / t - 1 / v->setting[REFERENCE]));
+    return mps_exp(v->setting[ARRHENIUS] * (1 / t - 1 / v->setting[REFERENCE]));
 }
 
 /* ---- MPS_LIMIT: the longest stable step ------------------------------------------------------ */
@@ -64,7 +64,7 @@ MPS_ROW void raise(const int dim, const mps_view *v, const fields *f, int64_t i,
     (void)dim;
     if (v->kind[i] != MPS_FLUID) return;
     const double mu = v->viscosity[v->phase[i]] * viscosity_ratio(v, f->temperature[i]);
-    most[0] = fmax(most[0], mu / f->density[i]);
+    most[0] = mps_larger(most[0], mu / f->density[i]);
 }
 MPS_SUMS(raise_rows, raise, fields)
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The public functions of mps/ship.h. */
 #include "motion.h"
+#include "angles.h"
 #include <math.h>
 #include <mps/ship.h>
 #include <string.h>
@@ -68,7 +69,7 @@ static mps_status open_hull(const mps_ship *given, hull *h)
                       (ship.degrees == 0 || ship.degrees == 1) && mps__finite(ship.origin, 3) &&
                       find_axes(&ship, &h->rest) && find_order(&ship, h->order);
     if (!good) return MPS_E_ARG;
-    h->unit = ship.degrees ? acos(-1.0) / 180 : 1;
+    h->unit = ship.degrees ? MPS__PI / 180 : 1;
     memcpy(h->origin, ship.origin, sizeof h->origin);
     return MPS_OK;
 }
@@ -206,7 +207,7 @@ static bool good_columns(int32_t dofs, const int32_t *dof)
 /* One row, its angles continued from those of the row before. */
 static mps_status convert_row(const hull *h, const double *six, mps_motion_state *tank)
 {
-    const double turn = 2 * acos(-1.0);
+    const double turn = 2 * MPS__PI;
     mps_ship_motion motion = {.struct_size = sizeof motion};
     double before[3];
     if (!mps__finite(six, DOFS)) return MPS_E_ARG;

@@ -2,6 +2,7 @@
 /* Which face of a wall a sensor lies on: the one whose plane is nearest, of tanks, baffles, plates and solids with packed particles. It goes on to
  * the wall it stands on; walls that a solid covers or a plate hides do not belong to it. */
 #include "probe_face.h"
+#include "angles.h"
 #include "plates.h"
 #include "probes.h"
 #include <math.h>
@@ -93,7 +94,7 @@ static bool on_face(const mps__face *f, const solid *e)
     }
     if (f->dim == 2) return moment[0] > 0.1;
     const double mean = 0.5 * (moment[0] + moment[2]),
-                 root = hypot(0.5 * (moment[0] - moment[2]), moment[1]);
+                 root = mps__hypot(0.5 * (moment[0] - moment[2]), moment[1]);
     return mean - root > 0.3;
 }
 

@@ -7,6 +7,7 @@
  * sensor. Where the particles are not on a lattice, the weights are corrected so that a linear pressure stays exact. On an edge the face has a
  * pressure of its own: probe_edge.c. */
 #include "probe_sensor.h"
+#include "angles.h"
 #include "gather.h"
 #include "probe_face.h"
 #include <math.h>
@@ -78,11 +79,11 @@ static double along(const mps__face *f, const mps__face_point *u, int e, double 
 /* Call for each chord of a disc: the place across, half its length, its share of the area. */
 static void chord_of_disc(const mps__face *f, int k, double *across, double *half, double *share)
 {
-    const double from = asin(fmin(fmax(f->lo[0] / f->radius, -1), 1)),
-                 to = asin(fmin(fmax(f->hi[0] / f->radius, -1), 1));
+    const double from = mps__asin(fmin(fmax(f->lo[0] / f->radius, -1), 1)),
+                 to = mps__asin(fmin(fmax(f->hi[0] / f->radius, -1), 1));
     const double angle = from + (to - from) * (k + 0.5) / CHORDS;
-    *across = f->radius * sin(angle);
-    *half = f->radius * cos(angle);
+    *across = f->radius * mps__sin(angle);
+    *half = f->radius * mps__cos(angle);
     *share = (to - from) * *half;
 }
 
@@ -135,7 +136,7 @@ static bool correction(const mps__face *f, double k[3])
     k[0] = 1 / s0;
     k[1] = k[2] = 0;
     if (!(s0 > 0)) return false;
-    if (hypot(s1[0], s1[1]) <= 1e-9 * f->dp * s0) return true;
+    if (mps__hypot(s1[0], s1[1]) <= 1e-9 * f->dp * s0) return true;
     if (f->sides == 1) {
         s2[1] = s1[1] = 0;
         s2[2] = s2[0];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Harmonic motion: a sum of A sin(w t + phase) and -A (1 - cos w t), each of which may grow over a ramp. */
+#include "angles.h"
 #include "builtin_motion.h"
 #include <math.h>
 #include <string.h>
@@ -22,9 +23,9 @@ static void grow(double ramp, double t, double f[3])
 static void swing(const mps_harmonic *h, double t, double q[3])
 {
     double a = h->amplitude, w = h->omega, angle = h->form == 1 ? w * t : w * t + h->phase;
-    double sine = sin(angle), cosine = cos(angle);
+    double sine = mps__sin(angle), cosine = mps__cos(angle);
     if (h->form == 1) {
-        double half = sin(0.5 * angle);
+        double half = mps__sin(0.5 * angle);
         q[0] = -2 * a * half * half;
         q[1] = -a * w * sine;
         q[2] = -a * w * w * cosine;

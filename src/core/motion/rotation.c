@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Rotations about the axes that a body carries along. */
 #include "rotation.h"
+#include "angles.h"
 #include "base.h"
 #include <math.h>
 
@@ -14,7 +15,7 @@ void mps__cross(const double a[3], const double b[3], double out[3])
 /* Turn the two other axes about axis k, from the one that follows it to the next. */
 static void turn_about(int32_t k, double angle, mps__triad *axes)
 {
-    const double c = cos(angle), s = sin(angle);
+    const double c = mps__cos(angle), s = mps__sin(angle);
     double *from = axes->e[(k + 1) % 3], *to = axes->e[(k + 2) % 3];
     for (int d = 0; d < 3; d++) {
         const double f = from[d], t = to[d];
@@ -59,11 +60,11 @@ static bool find_angles(const mps__triad *rest, const mps__triad *axes, mps__ang
     const int32_t i = a->order[0], j = a->order[1], k = a->order[2];
     const double s = j == (i + 1) % 3 ? 1 : -1;
     const double ii = mps__dot(rest->e[i], axes->e[i], 3), ij = mps__dot(rest->e[i], axes->e[j], 3),
-                 ik = mps__dot(rest->e[i], axes->e[k], 3), cosine = hypot(ii, ij);
-    a->angle[0] = atan2(-s * mps__dot(rest->e[j], axes->e[k], 3),
-                        mps__dot(rest->e[k], axes->e[k], 3));
-    a->angle[1] = atan2(s * ik, cosine);
-    a->angle[2] = atan2(-s * ij, ii);
+                 ik = mps__dot(rest->e[i], axes->e[k], 3), cosine = mps__hypot(ii, ij);
+    a->angle[0] = mps__atan2(-s * mps__dot(rest->e[j], axes->e[k], 3),
+                             mps__dot(rest->e[k], axes->e[k], 3));
+    a->angle[1] = mps__atan2(s * ik, cosine);
+    a->angle[2] = mps__atan2(-s * ij, ii);
     *square = cosine * cosine;
     return cosine > 1e-6;
 }
@@ -83,8 +84,8 @@ static bool turns_about(const mps__triad *rest, const mps__triad *axes, const do
     }
     if (mps__dot(rest->e[j], axes->e[j], 3) < 0) return false;
     for (int n = 0; n < 3; n++) a->angle[n] = a->rate[n] = a->accel[n] = 0;
-    a->angle[1] = atan2(s * mps__dot(rest->e[i], axes->e[k], 3),
-                        mps__dot(rest->e[i], axes->e[i], 3));
+    a->angle[1] = mps__atan2(s * mps__dot(rest->e[i], axes->e[k], 3),
+                             mps__dot(rest->e[i], axes->e[i], 3));
     a->rate[1] = mps__dot(rest->e[j], omega, 3);
     a->accel[1] = mps__dot(rest->e[j], alpha, 3);
     return true;
@@ -98,7 +99,8 @@ bool mps__rotation_angles(const mps__triad *rest, const mps__triad *axes, const 
     if (turns_about(rest, axes, omega, alpha, a)) return true;
     if (!find_angles(rest, axes, a, &square)) return false;
     const int32_t i = a->order[0], j = a->order[1], k = a->order[2];
-    const double s = j == (i + 1) % 3 ? 1 : -1, c = cos(a->angle[0]), sine = s * sin(a->angle[0]);
+    const double s = j == (i + 1) % 3 ? 1 : -1, c = mps__cos(a->angle[0]),
+                 sine = s * mps__sin(a->angle[0]);
     for (int d = 0; d < 3; d++) {
         along.e[0][d] = rest->e[i][d];
         along.e[1][d] = c * rest->e[j][d] + sine * rest->e[k][d];

@@ -2,6 +2,7 @@
 /* Distance to a surface: a tree of boxes over its elements. The side is that of the pseudonormal of what is nearest - face, edge or
  * corner; at corners the normals are weighted by angle (Baerentzen and Aanaes 2005), the only weight for which the sign is right. */
 #include "mesh.h"
+#include "angles.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -224,7 +225,7 @@ static void add_point_normals(mps__mesh *m)
             difference(corner_of(m, e, (k + 1) % 3), corner_of(m, e, k), a);
             difference(corner_of(m, e, (k + 2) % 3), corner_of(m, e, k), b);
             cross(a, b, turn);
-            const double angle = atan2(sqrt(dot(turn, turn)), dot(a, b));
+            const double angle = mps__atan2(sqrt(dot(turn, turn)), dot(a, b));
             for (int d = 0; d < 3; d++) sum[d] += angle * n[d];
         }
     }

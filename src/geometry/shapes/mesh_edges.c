@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sharp edges of a surface of triangles. */
 #include "mesh.h"
+#include "angles.h"
 #include <math.h>
 #include <string.h>
 
 /* The unit normals of two faces add to 2 cos(half of the angle between them); a lone one, of an open surface, is 1 long. */
 static bool is_sharp(const double sum[3], double angle)
 {
-    const double most = 2 * cos(0.5 * angle);
+    const double most = 2 * mps__cos(0.5 * angle);
     return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2] < most * most;
 }
 

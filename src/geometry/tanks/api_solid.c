@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Solids of mps/geometry.h: argument checks, then solid.c. */
 #include "geometry.h"
+#include "angles.h"
 #include "solid.h"
 #include "stl.h"
 #include <math.h>
@@ -108,10 +109,10 @@ static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
 /* A quarter turn gives exact zeros. */
 static void cosine_sine(double angle, double *cosine, double *sine)
 {
-    const double quarters = angle / (0.5 * 3.14159265358979323846), whole = round(quarters);
+    const double quarters = angle / (0.5 * MPS__PI), whole = round(quarters);
     static const double table[] = {1, 0, -1, 0};
-    *cosine = cos(angle);
-    *sine = sin(angle);
+    *cosine = mps__cos(angle);
+    *sine = mps__sin(angle);
     if (fabs(quarters - whole) > 1e-12 || fabs(whole) > 1e6) return;
     const int k = (int)((int64_t)whole & 3);
     *cosine = table[k];
@@ -240,7 +241,7 @@ mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, dou
     MPS__TRY(mps__struct_in(c, "mps_stl", &s, sizeof s, stl));
     if (s.scale == 0) s.scale = stl_defaults.scale;
     MPS__TRY(check_stl(sim, path, &s));
-    MPS__CHECK(c, angle >= 0 && angle <= acos(-1.0), "angle is %g rad: must be 0..pi", angle);
+    MPS__CHECK(c, angle >= 0 && angle <= MPS__PI, "angle is %g rad: must be 0..pi", angle);
     MPS__CHECK(c, room >= 0 && (ends || room == 0), "room is %lld, or ends is NULL",
                (long long)room);
     MPS__CHECK(c, count, "count is NULL");

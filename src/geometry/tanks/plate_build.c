@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Thin plates. Each side gets walls and shadows of its own; walls it stands on are divided between the sides. */
 #include "geometry.h"
+#include "angles.h"
 #include <math.h>
 #include <string.h>
 
@@ -88,8 +89,8 @@ static mps_status find_residents(builder *b)
 static void distances(const builder *b, const resident *r, const int64_t node[2], double height,
                       double *along, double *above)
 {
-    *along = hypot(r->at[0] - (double)node[0] * b->shape.spacing[0],
-                   r->at[1] - (double)node[1] * b->shape.spacing[1]);
+    *along = mps__hypot(r->at[0] - (double)node[0] * b->shape.spacing[0],
+                        r->at[1] - (double)node[1] * b->shape.spacing[1]);
     *above = fabs(r->height - height);
 }
 
@@ -115,7 +116,7 @@ static int32_t node_stands_on(const builder *b, const int64_t node[2], double he
         double along, above;
         if (s->kind[r->i] != MPS_WALL) continue;
         distances(b, r, node, height, &along, &above);
-        if (at_node(b, r, node, height) || hypot(along, above) < touching * b->dp)
+        if (at_node(b, r, node, height) || mps__hypot(along, above) < touching * b->dp)
             return s->plate[r->i] ? EDGE_PLATE : EDGE_WALL;
     }
     return EDGE_FREE;
@@ -304,7 +305,7 @@ static mps_status fill_node(builder *b, const int64_t node[2], int32_t c)
         double along, above;
         distances(b, r, node, height, &along, &above);
         taken = taken ||
-                hypot(along, above) < (b->shape.axis < 0 ? apart : 0.5 * (1 - 1e-9)) * b->dp;
+                mps__hypot(along, above) < (b->shape.axis < 0 ? apart : 0.5 * (1 - 1e-9)) * b->dp;
         if (s->kind[r->i] == MPS_WALL && at_node(b, r, node, height))
             MPS__TRY(divide(b, node, c, r->i));
     }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Slots between walls that face each other and have no lattice point between them: no liquid gets in, the log tells where. */
 #include "buckets.h"
+#include "angles.h"
 #include "lattice_plan.h"
 #include "solid.h"
 #include <math.h>
@@ -131,7 +132,7 @@ static mps_status collect(search *q)
 
 static mps_status find(search *q)
 {
-    const double most = 2 * (1 - 1e-6) * q->sim->world.setup.dp, reach = hypot(most, most);
+    const double most = 2 * (1 - 1e-6) * q->sim->world.setup.dp, reach = mps__hypot(most, most);
     MPS__TRY(collect(q));
     for (int64_t k = 0; k < q->walls.count; k++) {
         const int64_t i = q->particle[k];
