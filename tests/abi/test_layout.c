@@ -2,6 +2,7 @@
 /* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
 #include <mps/case.h>
 #include <mps/couple.h>
+#include <mps/device.h>
 #include <mps/exact.h>
 #include <mps/flux.h>
 #include <mps/geometry.h>
@@ -45,6 +46,25 @@ SIZE(mps_load, 456);
 AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4); AT(mps_load, force, 8);
 AT(mps_load, rest, 56); AT(mps_load, mass, 104); AT(mps_load, acceleration, 392);
 AT(mps_load, dt, 440); AT(mps_load, iterations, 448); AT(mps_load, reserved, 452);
+
+SIZE(mps_launch, 80);
+AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8);
+AT(mps_launch, file, 16); AT(mps_launch, name, 24); AT(mps_launch, view, 32);
+AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56);
+AT(mps_launch, maxima, 60); AT(mps_launch, run, 64); AT(mps_launch, host, 72);
+
+SIZE(mps_device_ops, 112);
+AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8);
+AT(mps_device_ops, self, 16); AT(mps_device_ops, room, 24); AT(mps_device_ops, give, 32);
+AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48); AT(mps_device_ops, clear, 56);
+AT(mps_device_ops, copy, 64); AT(mps_device_ops, rows, 72); AT(mps_device_ops, values, 80);
+AT(mps_device_ops, wait, 88); AT(mps_device_ops, failure, 96); AT(mps_device_ops, outdated, 104);
+
+SIZE(mps_device_info, 72);
+AT(mps_device_info, struct_size, 0); AT(mps_device_info, host_calls, 4); AT(mps_device_info, name, 8);
+AT(mps_device_info, launches, 16); AT(mps_device_info, waits, 24); AT(mps_device_info, uploads, 32);
+AT(mps_device_info, downloads, 40); AT(mps_device_info, bytes_up, 48); AT(mps_device_info, bytes_down, 56);
+AT(mps_device_info, bytes_held, 64);
 
 SIZE(mps_exact, 32);
 AT(mps_exact, part, 0); AT(mps_exact, level, 24); AT(mps_exact, special, 28);
@@ -400,13 +420,13 @@ AT(mps_stage, data, 16); AT(mps_stage, self, 24); AT(mps_stage, step, 32);
 AT(mps_stage, since_jump, 40); AT(mps_stage, dt_limit, 48); AT(mps_stage, level_free, 56);
 AT(mps_stage, reserved, 60); AT(mps_stage, host, 64);
 
-SIZE(mps_rows, 24);
+SIZE(mps_rows, 32);
 AT(mps_rows, struct_size, 0); AT(mps_rows, bytes, 4); AT(mps_rows, name, 8);
-AT(mps_rows, run, 16);
+AT(mps_rows, run, 16); AT(mps_rows, file, 24);
 
-SIZE(mps_sums, 24);
+SIZE(mps_sums, 32);
 AT(mps_sums, struct_size, 0); AT(mps_sums, bytes, 4); AT(mps_sums, name, 8);
-AT(mps_sums, run, 16);
+AT(mps_sums, run, 16); AT(mps_sums, file, 24);
 
 SIZE(mps_grid, 40);
 AT(mps_grid, struct_size, 0); AT(mps_grid, dim, 4); AT(mps_grid, side, 8);

@@ -222,7 +222,8 @@ static void push_first(const mps_view *v, const void *fields, int64_t begin, int
         }
 }
 
-static const mps_rows push_first_rows = {sizeof(mps_rows), sizeof(push), "push_first", push_first};
+static const mps_rows push_first_rows = {sizeof(mps_rows), sizeof(push), "push_first", push_first,
+                                         __FILE__};
 
 static int push_by_thread(mps_stage *s)
 {

@@ -120,7 +120,7 @@ static void raise_none(const mps_view *v, const void *fields, int64_t begin, int
     assert_int_equal(stride, 0);
 }
 
-static const mps_sums raise_nothing = {sizeof(mps_sums), 0, "raise_nothing", raise_none};
+static const mps_sums raise_nothing = {sizeof(mps_sums), 0, "raise_nothing", raise_none, __FILE__};
 
 static int sum_all(mps_stage *s)
 {
@@ -178,7 +178,8 @@ static void add_some(const mps_view *v, const void *fields, int64_t begin, int64
     }
 }
 
-static const mps_sums add_ordered = {sizeof(mps_sums), sizeof(ordered), "add_ordered", add_some};
+static const mps_sums add_ordered = {sizeof(mps_sums), sizeof(ordered), "add_ordered", add_some,
+                                     __FILE__};
 
 static int sum_in_orders(mps_stage *s)
 {

@@ -25,31 +25,19 @@ static void run_values(void *argument, int64_t begin, int64_t end, mps_exact *su
 
 /* ---- on a device ---- */
 
-static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *sum,
-                       double *maximum)
+static void launch_rows(const void *host, int64_t begin, int64_t end, mps_exact *sum,
+                        double *maximum)
 {
     const job *k = host;
-    if (k->loop)
-        k->loop->run(k->dim, k->fields, begin, end);
-    else
-        k->values->run(k->dim, k->fields, begin, end, sum, maximum);
+    (void)sum, (void)maximum;
+    k->loop->run(k->dim, k->fields, begin, end);
 }
 
-static void launch(mps__device *d, const job *k, int64_t n, mps_exact *sum, double *maximum)
+static void launch_values(const void *host, int64_t begin, int64_t end, mps_exact *sum,
+                          double *maximum)
 {
-    mps_launch l = {.dim = k->dim, .n = n, .fields = k->fields, .run = run_launch, .host = k};
-    if (k->loop) {
-        l.file = k->loop->file;
-        l.name = k->loop->name;
-        l.bytes = k->loop->bytes;
-    } else {
-        l.file = k->values->file;
-        l.name = k->values->name;
-        l.bytes = k->values->bytes;
-        l.sums = k->values->sums;
-        l.maxima = k->values->maxima;
-    }
-    mps__device_launch(d, &l, sum, maximum);
+    const job *k = host;
+    k->values->run(k->dim, k->fields, begin, end, sum, maximum);
 }
 
 /* ---- loops ---- */
@@ -57,8 +45,16 @@ static void launch(mps__device *d, const job *k, int64_t n, mps_exact *sum, doub
 static void run_loop(const mps_parallel *p, const job *k, int64_t n, int64_t least)
 {
     mps__device *d = mps__device_of(p);
+    mps_launch l = {.file = k->loop->file,
+                    .name = k->loop->name,
+                    .dim = k->dim,
+                    .n = n,
+                    .fields = k->fields,
+                    .bytes = k->loop->bytes,
+                    .run = launch_rows,
+                    .host = k};
     if (d)
-        launch(d, k, n, NULL, NULL);
+        mps__device_launch(d, &l, NULL, NULL);
     else
         mps_parallel_rows_least(p, n, least, run_rows, (void *)k);
 }
@@ -87,8 +83,18 @@ void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t d
     job k = {.values = values, .dim = dim, .fields = fields};
     const mps_exact_values wanted = {values->sums, values->maxima, sum, maximum};
     mps__device *d = mps__device_of(p);
+    mps_launch l = {.file = values->file,
+                    .name = values->name,
+                    .dim = dim,
+                    .n = n,
+                    .fields = fields,
+                    .bytes = values->bytes,
+                    .sums = values->sums,
+                    .maxima = values->maxima,
+                    .run = launch_values,
+                    .host = &k};
     if (d)
-        launch(d, &k, n, sum, maximum);
+        mps__device_launch(d, &l, sum, maximum);
     else
         mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
 }

@@ -112,6 +112,13 @@ static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *
         raise_rows(&own, begin, end);
 }
 
+/* Source file of a loop of the library; loops of others run on the host, and those of older headers have none. */
+static const char *file_of(const job *k)
+{
+    if (k->rows) return k->rows->struct_size >= sizeof *k->rows ? k->rows->file : "";
+    return k->sums->struct_size >= sizeof *k->sums ? k->sums->file : "";
+}
+
 /* Rows, `count` sums or maxima, of which one pointer is NULL. */
 static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima)
 {
@@ -123,7 +130,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     k.v = &v;
     mps_launch l = {.dim = v.dim,
                     .n = v.n,
-                    .file = k.rows ? k.rows->file : k.sums->file,
+                    .file = file_of(&k),
                     .name = k.rows ? k.rows->name : k.sums->name,
                     .view = &v,
                     .fields = k.fields,
