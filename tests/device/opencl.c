@@ -332,8 +332,8 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
             differ(o, k, "a sum", 0, &(double){mps_exact_value(&sum[m])},
                    &(double){mps_exact_value(&host_sum[m])});
     for (int m = 0; m < l->maxima; m++)
-        if (memcmp(&maximum[m], &host_maximum[m], sizeof *maximum) !=
-            0) // NOLINT(bugprone-suspicious-memory-comparison)
+        /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bytes count */
+        if (memcmp(&maximum[m], &host_maximum[m], sizeof *maximum) != 0)
             differ(o, k, "a maximum", 0, &maximum[m], &host_maximum[m]);
     return 0;
 }
