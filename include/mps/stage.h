@@ -3,7 +3,6 @@
  *
  *  A verb gets a stage. Its loops run over rows, particles in their present order: a row function
  *  gets a view, which has numbers and arrays only, and the fields that the verb gives to the loop.
- *
  *  Notation: n particles, dim = 2 or 3. */
 #ifndef MPS_STAGE_H
 #define MPS_STAGE_H

@@ -146,6 +146,7 @@ static void both(job *k, const mps_launch *given, const void *fields, mps_exact 
     l.run = run;
     l.host = k;
     l.fields = k->fields;
+    if (!opencl_knows(o, &l)) return;
     assert_true(l.bytes <= sizeof k->fields);
     memcpy(k->fields, fields, l.bytes);
     translate(&k->twins, l.name, k->fields, l.bytes);

@@ -137,6 +137,12 @@ static opencl_kernel *kernel_of(opencl *o, const mps_launch *l)
     return kernel_named(o, name, l->dim);
 }
 
+bool opencl_knows(opencl *o, const mps_launch *l)
+{
+    const opencl_kernel *k = kernel_of(o, l);
+    return k && k->kernel;
+}
+
 /* Run a kernel of one argument, a struct in the memory of the device. */
 static int start(opencl *o, cl_kernel kernel, const char *name, int64_t threads, int64_t group)
 {
@@ -326,6 +332,7 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
             differ(o, k, "a sum", 0, &(double){mps_exact_value(&sum[m])},
                    &(double){mps_exact_value(&host_sum[m])});
     for (int m = 0; m < l->maxima; m++)
+        /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bytes count */
         if (memcmp(&maximum[m], &host_maximum[m], sizeof *maximum) != 0)
             differ(o, k, "a maximum", 0, &maximum[m], &host_maximum[m]);
     return 0;

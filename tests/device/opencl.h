@@ -42,6 +42,8 @@ bool opencl_open(opencl *o, const char *bitcode);
 void opencl_close(opencl *o);
 /* Steps of a simulation run on the device from now on. */
 void opencl_attach(opencl *o, mps_sim *sim);
+/* Whether a loop has a kernel. */
+bool opencl_knows(opencl *o, const mps_launch *l);
 /* Room for `count` values of n rows; then sums and maxima of them, as loops get them. @return 0, 1 after a failure */
 double *opencl_terms(opencl *o, int64_t count, int64_t n);
 int opencl_join(opencl *o, int64_t n, int32_t sums, mps_exact *sum, int32_t maxima,
