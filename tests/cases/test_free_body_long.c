@@ -158,13 +158,13 @@ static void frequencies(void **state)
 static double momentum_of(mps_sim *sim, const mps_body_report *body)
 {
     mps_lease u = {.struct_size = sizeof u}, at = {.struct_size = sizeof at}, region;
-    const int32_t *kind;
+    const int32_t *kind = NULL;
     double sum = 0;
     ok(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     ok(sim, tags_lease(sim, "region", &region));
     ok(sim, mps_lease_begin(sim, "velocity", MPS_READ, &u));
     ok(sim, mps_lease_begin(sim, "position", MPS_READ, &at));
-    for (int64_t i = 0; i < u.count; i++) {
+    for (int64_t i = 0; i < u.count && kind; i++) {
         if (kind[i] != MPS_FLUID) continue;
         const double cell = 1000 * dp * dp, r = at.data[2 * i] - body->pose[0],
                      share = region.integers[i] == MPS_REGION_SURFACE ? 0.5 : 1;
