@@ -96,6 +96,14 @@ def quick():
         "body.load={file: load.csv, columns: {surge: push}}", "-o", "b")
     a, b = (columns(f"{name}/probes.csv")["body_surge"][-1] for name in "ab")
     check(a != 0 and abs(b / a - 1) < 1e-4, f"table and harmonic: {b / a - 1:.1e}")
+    # a free tank: M + m0 + sum m_n/(1 - w^2/w_n^2) = 0 has w = 7.003 rad/s for M = 100 kg, 8.372 for 2 kg
+    for mass, omega in ((100, 7.003), (2, 8.372)):
+        said = run("check", "spring.yaml", "--set", "fill.water.depth=0.25 m", "--set", f"body={{mass: {mass} kg, surge: {{stiffness: 0.1 N/m}}}}",
+                   text="with the moving liquid, by linear theory")
+        period = float(said.split("with the moving liquid, by linear theory")[1].split(" and ")[1].split()[0])
+        check(abs(period * omega / (2 * math.pi) - 1) < 2e-4, f"{mass} kg: {2 * math.pi / period:.4f} rad/s, {omega} by theory")
+    run("check", "spring.yaml", "--set", "fill.water.depth=0.25 m", "--set",
+        "body={mass: 1 kg, centre: 0.4 0 m, inertia: 10 kg m2, roll: {stiffness: 600 N m/rad}}", text="it falls over: that takes 663.8 N m/rad")
     refused("body.surge.period=0 s", "body.surge.period")
     refused("body.heave={period: 1 s, stiffness: 1 N/m}", "exclude each other")
     refused("body={mass: 1 kg}", "no degree is free")

@@ -37,7 +37,7 @@ static void printed(void **state)
     assert_string_equal(
         all,
         "a.yaml:4:3: error: sensors.P: one of these keys is missing: wall, panel, row, pressure, "
-        "gauge, force, measure\n"
+        "gauge, force, load, measure\n"
         "    4 |   P: {wal: 0 50 mm}\n"
         "      |   ^\n"
         "a.yaml:4:7: error: unknown key 'sensors.P.wal'; did you mean 'wall'?\n"

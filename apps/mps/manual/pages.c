@@ -131,12 +131,21 @@ static const char CASE_EXAMPLE[] =
     "sensors:\n  P1: {wall: 0 50 mm}\n  eta\\_left: {gauge: 1 dp}\nrun: {until: 5.4 s}\n```\n\n"
     "More of them: 'mps list cases', 'mps init NAME'.\n\n";
 
-/* A kind of quantity that has units of its own. */
-static bool is_kind(const mps_case_key *k)
+/* A kind of quantity that has units of its own: of "inertia, 1 to 6" and "damping or a share" the first word. @return false: none */
+static bool find_kind(int32_t index, mps_case_key *k)
 {
+    static const char share[] = " or a share", percent[] = ", %";
+    if (mps_case_key_get(index, k) != MPS_OK) return false;
+    k->kind[strcspn(k->kind, ",")] = '\0';
+    char *at = strstr(k->kind, share);
+    const size_t length = strlen(k->units);
+    if (at && length > strlen(percent)) {
+        *at = '\0';
+        k->units[length - strlen(percent)] = '\0';
+    }
     if (!k->units[0] || strcmp(k->units, "any") == 0) return false;
     if (strcmp(k->kind, "unit") == 0 || strcmp(k->kind, "points") == 0) return false;
-    return !strchr(k->kind, ',') && (!strstr(k->kind, " or ") || strstr(k->kind, "viscosity"));
+    return !strstr(k->kind, " or ") || strstr(k->kind, "viscosity");
 }
 
 /* Each kind once. */
@@ -144,9 +153,9 @@ static void put_units(FILE *out)
 {
     mps_case_key k = {.struct_size = sizeof k}, earlier = {.struct_size = sizeof earlier};
     for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
-        bool known = !is_kind(&k);
+        bool known = !find_kind(i, &k);
         for (int32_t j = 0; j < i && !known; j++)
-            known = mps_case_key_get(j, &earlier) == MPS_OK && strcmp(earlier.kind, k.kind) == 0;
+            known = find_kind(j, &earlier) && strcmp(earlier.kind, k.kind) == 0;
         if (known) continue;
         put_bold(out, k.kind);
         fputs("\n\t", out);

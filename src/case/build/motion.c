@@ -147,14 +147,15 @@ void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int
     const bool along = fabs(m->ship.forward[0]) > 0.5;
     int32_t dof, other;
     double sign;
+    char without[48] = "";
     if (b->dim == 3) return;
+    if (!m->has_forward) snprintf(without, sizeof without, " without '%s.forward'", m->of);
     mps__degree_to_lab(m, degree, &dof, &sign);
     if (dof != MPS_MOVE_X && dof != MPS_MOVE_Y && dof != MPS_ROTATE_Z)
         mps__case_say(b->c, at, false,
                       "%s.%s: moves nothing in the plane x, y of a 2-D case, where the bow is "
                       "along %s%s: there are %s",
-                      m->of, mps__degrees[degree], along ? "x" : "z",
-                      m->has_forward ? "" : " without 'forward'",
+                      m->of, mps__degrees[degree], along ? "x" : "z", without,
                       along ? "surge (along x), heave (along y) and pitch; for a section across "
                               "the ship give 'forward: z'"
                       : m->has_forward

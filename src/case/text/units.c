@@ -48,7 +48,7 @@ static const mps__unit units[] = {
 
 static const char *const kind_names[UNIT_KINDS] = {
     "a number", "a length", "a time", "an angle", "an angular velocity", "a frequency", "a velocity", "an acceleration", "a density",
-    "a dynamic viscosity", "a kinematic viscosity", "a surface tension", "a pressure", "a mass", "a moment of inertia", "a stiffness", "a force",
+    "a dynamic viscosity", "a kinematic viscosity", "a surface tension", "a pressure", "a mass", "an inertia", "a stiffness", "a force",
     "a moment", "a share", "a number of bytes", "an angular acceleration", "a volume", "an area",
     "a damping", "a stiffness of a turn", "a damping of a turn"};
 /* clang-format on */
