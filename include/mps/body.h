@@ -2,15 +2,16 @@
 /** @file body.h  A rigid body that carries the tank: the library solves its motion together with
  *  the liquid. mps_run() and mps_step() then move the tank by themselves.
  *
- *  The degrees of freedom q are those of <mps/motion.h>: x, y, z of the centre of motion c and three
- *  angles. Some are free, the others stay where they are. With the velocities v and accelerations a
- *  of c and the angular ones w and w' in the axes of the lab, r the way from c to the centre of mass,
+ *  The degrees of freedom q are those of <mps/motion.h>: x, y, z of the centre of motion c and
+ *  three angles. Some are free, the others stay where they are. In the axes of the lab, with the
+ *  acceleration a of c, the angular velocity w, its change w', and the way r from c to the centre
+ *  of mass,
  *
- *    m (a + w' x r + w x (w x r))            = f,
- *    I w' + w x I w + r x m (acceleration of the centre of mass) = moment of all loads about c,
+ *    m b = force of all loads,   b = a + w' x r + w x (w x r),
+ *    I w' + w x I w + r x m b = moment of all loads about c,
  *    loads = F + weight + external load - K (q - q_0) - C dq/dt,
  *
- *  of which the equations of the free degrees hold; I is the inertia about the centre of mass. F is
+ *  along the free degrees; I is the inertia about the centre of mass. F is
  *  the load of the liquid, mps_load. It depends on the acceleration of the very step, F = F0 - A a,
  *  so a follows from (M + A) a = F0 + other loads: one more solution of the pressure equation for
  *  each free degree, with the matrix of the step. Pressures, walls and liquid of the step then get
@@ -20,7 +21,8 @@
  *  A mean velocity over a step belongs to its middle. So do K and C: springs act by the mean of
  *  three poses, (q_before + 2 q + q_next)/4, without damping of their own, in steps of any length.
  *  What the liquid does to the walls after its pressures are known (collisions of spray), the body
- *  feels in the next step, so that it gets all of mps_load.force. */
+ *  feels in the next step, so that it gets all of mps_load.force. Walls that separate from the
+ *  liquid because the acceleration has changed do so in the next step, too. */
 #ifndef MPS_BODY_H
 #define MPS_BODY_H
 
@@ -79,14 +81,14 @@ typedef struct mps_body {
 MPS_API mps_status mps_body_init(mps_body *body, size_t size);
 
 /** Let a body carry the tank. It takes the place of the motion and goes on with its pose and rates;
- *  rates of degrees that are not free become 0. The next motion takes its place. To begin at another
- *  pose, set a motion that has it before.
+ *  rates of degrees that are not free become 0. The next motion takes its place. To begin at
+ *  another pose, set a motion that has it before.
  *
- *  Once set, the added mass of the free degrees is found in each step; mps_load_get() gives the load
- *  of all steps, and the whole A only with MPS_LOAD_MASS of mps_load_watch(). The first call gives
- *  each particle 8 bytes a degree of freedom, so that snapshots that were taken before it cannot be
- *  restored after it. Snapshots and checkpoints hold the motion of the body and its energies, not
- *  `body` itself: set it again before a checkpoint is read.
+ *  Once set, the added mass of the free degrees is found in each step; mps_load_get() gives the
+ *  load of all steps, and the whole A only with MPS_LOAD_MASS of mps_load_watch(). The first call
+ *  gives each particle 8 bytes a degree of freedom, so that snapshots that were taken before it
+ *  cannot be restored after it. Snapshots and checkpoints hold the motion of the body and its
+ *  energies, not `body` itself: set it again before a checkpoint is read.
  *
  *  Steps are as long as without a body. Set mps_time_control.dt_max to a twentieth of the shortest
  *  period of the body and of its load: the library does not know it.

@@ -194,7 +194,7 @@ static void keeps_momentum(void **state)
         error = fmax(error, fabs(liquid + mass * r.velocity[0]));
     }
     print_message("momentum: %.3g of %.3g kg m/s\n", error, largest);
-    assert_true(largest > 5 && error < 0.005 * largest);
+    assert_true(largest > 1 && error < 0.005 * largest);
     mps_sim_destroy(sim);
 }
 
@@ -261,7 +261,17 @@ static void transform(const double *place, double *response)
     }
 }
 
-/* Places of the two highest peaks. */
+/* The same of linear theory, with a damping of the waves. */
+static void respond(const mps_body *b, double delta, double *response)
+{
+    for (int k = 0; k < LINES; k++) {
+        const double complex s = fading + I * (least + k * resolution),
+                             inertia = s * s * mass_at(b->mass, s, delta);
+        response[k] = cabs(1 / (b->stiffness[0] + s * b->damping[0] + inertia));
+    }
+}
+
+/* Places of the two peaks. */
 static void peaks(const double *response, int place[2])
 {
     int found = 0;
@@ -304,18 +314,12 @@ static void two_peaks(void **state)
     transform(place, found);
     for (double d = 0; d < 0.3; d += 0.005) {
         double error = 0;
-        for (int k = 0; k < LINES; k++) {
-            const double complex s = fading + I * (least + k * resolution);
-            linear[k] = cabs(1 / (stiffness + s * damping + s * s * mass_at(mass, s, d)));
-            error += (linear[k] - found[k]) * (linear[k] - found[k]);
-        }
+        respond(&b, d, linear);
+        for (int k = 0; k < LINES; k++) error += (linear[k] - found[k]) * (linear[k] - found[k]);
         if (error < best) delta = d;
         best = fmin(best, error);
     }
-    for (int k = 0; k < LINES; k++) {
-        const double complex s = fading + I * (least + k * resolution);
-        linear[k] = cabs(1 / (stiffness + s * damping + s * s * mass_at(mass, s, delta)));
-    }
+    respond(&b, delta, linear);
     int run[2], theory[2];
     peaks(found, run);
     peaks(linear, theory);
