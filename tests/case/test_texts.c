@@ -123,6 +123,9 @@ static void kinds(void **state)
     kit_refused(HEAD "motion: {roll: []}\n", 3, 16, "a map of keys, or a list of such|not a list");
     kit_refused(HEAD "sensors: 3\n", 3, 10, "sensors: a map of names is wanted, not a text");
     kit_refused(HEAD "sensors: {\"\": {wall: 0 0 m}}\n", 3, 11, "name '': a letter is wanted");
+    /* of one key elsewhere the message tells where; not of one at the top, nor of several */
+    kit_refused(HEAD "output: {gravity: 1 m/s2}\n", 3, 10, "unknown key 'output.gravity'");
+    kit_refused(HEAD "output: {radius: 1 m}\n", 3, 10, "unknown key 'output.radius'");
     kit_refused(HEAD "output: {fill: []}\n", 3, 10, "unknown key 'output.fill'");
     kit_refused(HEAD "remove: [colision.pair, \"\"]\n", 3, 10, "did you mean 'collision.pair'?");
     kit_refused(HEAD "remove: [colision.pair, \"\"]\n", 3, 25, "a text is wanted");

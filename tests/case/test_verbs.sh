@@ -71,6 +71,7 @@ expect 0 " plain.svg" "$program" check a.b/plain
 # ---- lists
 expect 0 "mps list keys [NAME]" "$program" list
 expect 2 "is no list" "$program" list nothing
+expect 2 "no key has the name 'tan'" "$program" list keys tan
 "$program" list keys mps > log
 [ "$(wc -l < log)" -ge 1 ] || fail "list keys mps"
 for verb in schema "list keys"; do
@@ -97,6 +98,8 @@ expect 0 "voyage.csv" "$program" init voyage.csv
 expect 2 "is there already" "$program" init voyage.csv
 grep -q "^mps: 1" mine.yaml || fail "init -o"
 expect 0 "" "$program" run small.yaml -q -o done
+printf 't,eta\n0,1\n0.01,2\n0.02,3\n' > bare.csv # without units: compared as they are
+expect 0 "  eta " "$program" compare done bare.csv
 expect 2 "is more than the tank is high" "$program" run small.yaml -o none --set "fill.water.depth=90 m"
 [ -e none ] && fail "a refused run made a folder"
 ln -s /dev/full done/statistics.json
