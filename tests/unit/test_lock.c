@@ -204,7 +204,9 @@ static int count_functions(char *text)
 static void every_function_is_in_the_table(void **state)
 {
     (void)state;
-    static const char *const header[] = {"body", "couple", "device", "geometry", "list", "model", "motion", "operators", "output", "particles", "ppe", "probe", "sim", "step"};
+    static const char *const header[] = {"body",  "couple", "device",    "geometry", "list",
+                                         "model", "motion", "operators", "output",   "particles",
+                                         "ppe",   "probe",  "sim",       "step"};
     int found = 0;
     for (size_t k = 0; k < sizeof header / sizeof header[0]; k++) {
         char path[512];

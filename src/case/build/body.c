@@ -266,7 +266,7 @@ static bool add_column(const sensing *s, int32_t degree, body_value what)
 
 void mps__body_columns(build *b)
 {
-    const sensing s = {b, mps__tree_find(b->root, "body")};
+    const sensing s = {b, mps__tree_find(b->root, "body"), false};
     if (!b->body || b->status < 0) return;
     for (int32_t d = 0; d < MOTION_DEGREES; d++)
         for (body_value what = BODY_POSE; b->motion->used[d] && what < BODY_VALUES; what++)
