@@ -138,7 +138,7 @@ static mps_sim *begin(plates *p, double dt, bool layers)
  * more slowly; in the time t that reaches as far inside as sqrt(4 nu t). */
 static double momentum(mps_sim *sim, const plates *p, double whole)
 {
-    const int32_t *kind;
+    const int32_t *kind = NULL;
     mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u};
     const int dim = p->dim;
     const double middle = 4 + 0.5 * p->length;
@@ -146,7 +146,7 @@ static double momentum(mps_sim *sim, const plates *p, double whole)
     OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     OK(sim, mps_lease_begin(sim, "position", MPS_READ, &x));
     OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &u));
-    for (int64_t i = 0; i < x.count; i++) {
+    for (int64_t i = 0; i < x.count && kind; i++) {
         const double *at = x.data + i * dim;
         if (kind[i] != MPS_FLUID || fabs(at[0] - middle) > 1.2 ||
             (dim == 3 && fabs(at[2] - middle) > 1.2))
