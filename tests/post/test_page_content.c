@@ -130,7 +130,7 @@ static void verdicts(void **unused)
                "Particles lost <span class=\"state\">good",
                "Resolution of impacts <span class=\"state\">good",
                "One run of an impact is no answer", "Repeats <span class=\"state\">check",
-               "crossing times had a standard deviation of 31 %");
+               "crossing times had a standard deviation of 28 %");
     snprintf(text, sizeof text,
              "%s0,0,0,10,0,0,0,0\n1,5,4,12,1,0.5,0.5,-0.03\n2,5,4,12,2.5,1,0.5,0.06\n", head);
     text_write(&s, "probes.csv", text);
@@ -174,7 +174,7 @@ static void steep_or_not(void **unused)
         if (steep)
             CHECK_PAGE(&s, "Resolution of impacts <span class=\"state\">poor",
                        "This peak depends on the spacing", "id=\"impacts\"",
-                       "Repeats <span class=\"state\">check", "standard deviation of 42 %");
+                       "Repeats <span class=\"state\">check", "standard deviation of 40 %");
         else
             CHECK_PAGE(&s, "no steep peak", "Repeats <span class=\"state\">good",
                        "!id=\"impacts\"");

@@ -2,9 +2,7 @@
 /* The model gas.pocket in runs: without a pocket nothing changes; bytes do not depend on threads
  * and restarts; gas is kept in a violent flow; walls in a pocket show its pressure. */
 #include "phase/gas_pocket.h"
-#include "tank_fixture.h"
-#include <stdio.h>
-#include <stdlib.h>
+#include "frame_fixture.h"
 
 static const double DP = 0.02;
 
@@ -271,7 +269,28 @@ static void carried(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Particles about a pocket have its number, as frames show it. */
+/* Particles of the next frame with a number in its array "pocket". Its particles: fluid and walls. */
+static int64_t numbered_in_frame(mps_sim *sim, double number)
+{
+    const int64_t n = mps_particles_count(sim, MPS_FLUID) + mps_particles_count(sim, MPS_WALL);
+    mps_frames *frames = NULL;
+    size_t size;
+    int64_t count = 0;
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "pocket", 0, &frames));
+    ASSERT_OK(sim, mps_frames_write(frames));
+    mps_frames_close(frames);
+    char *text = slurp("pocket/pocket_000000.vtp", &size);
+    const char *at = find_array(text, size, "pocket", "Float64", 1, (uint64_t)n * sizeof(double));
+    for (int64_t i = 0; i < n; i++) {
+        double value;
+        memcpy(&value, at + (size_t)i * sizeof value, sizeof value);
+        count += value == number;
+    }
+    free(text);
+    return count;
+}
+
+/* Particles about a pocket have its number, in frames too. */
 static void particles_name_it(void **state)
 {
     (void)state;
@@ -281,6 +300,7 @@ static void particles_name_it(void **state)
     const int64_t all = mps_particles_count(sim, -1), about = numbered(sim, 1);
     assert_int_equal(about + numbered(sim, 0), all);
     assert_true(about > 2 * (10 + 10) && about < 4 * (10 + 10)); /* a box of 10 x 10 dp at a wall */
+    assert_int_equal(numbered_in_frame(sim, 1), about);
     mps_sim_destroy(sim);
 }
 
@@ -344,5 +364,5 @@ int main(void)
                                        cmocka_unit_test(particles_name_it),
                                        cmocka_unit_test(looks_when_it_moves),
                                        cmocka_unit_test(walls_show_it)};
-    return cmocka_run_group_tests(tests, NULL, NULL);
+    return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }
