@@ -223,11 +223,7 @@ void mps__step_load_end(mps__step *q)
         mps__step_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;
-        if (l->has_mass) {
-            int32_t freedom[6];
-            const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
-            memcpy(w->mass.guess, w->mass.next, (size_t)(w->particles.n * dofs) * sizeof(double));
-        }
+        if (l->has_mass) mps__step_mass_end(q);
         l->has_mass = l->has_mass && l->watch == MPS_LOAD_MASS;
     }
     w->load = *l;
