@@ -102,11 +102,11 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
 
 typedef struct changes {
     const double *place;                 /* of solids at the end of the step, tank's frame */
-    const double *columns_p, *columns_a; /* changes by each degree [n*dofs], [n*dofs*dim] */
+    const double *columns_p, *columns_a; /* changes by each column [n*count], [n*count*dim] */
     double *pressure, *acceleration, *tank, *velocity;
     double shift[3], rotation[9]; /* of the tank at the end of the step, as it was taken to be */
-    double change[6];             /* by the columns */
-    int32_t dofs;
+    double change[6];             /* of the columns' accelerations */
+    int32_t count;
 } changes;
 
 /* Way of a particle's place in the tank from where the end of the step was taken to be to where it is. */
@@ -152,8 +152,8 @@ MPS_ROW void correct_row(const int dim, const mps_view *v, const changes *f, int
         f->tank[k] += way[d] / (v->dt * v->dt);
         if (!fluid) f->velocity[k] += way[d] / v->dt;
     }
-    for (int32_t c = 0; c < f->dofs; c++) {
-        const int64_t column = i * f->dofs + c;
+    for (int32_t c = 0; c < f->count; c++) {
+        const int64_t column = i * f->count + c;
         f->pressure[i] += f->change[c] * f->columns_p[column];
         for (int d = 0; d < dim && fluid; d++)
             f->acceleration[i * dim + d] += f->change[c] * f->columns_a[column * dim + d];
@@ -202,12 +202,13 @@ static mps_status move_body(mps_stage *s)
                          "'solid_place'): remove that model, or call mps_body_set() with NULL");
     memcpy(f.shift, q->pose.state.value, sizeof f.shift);
     memcpy(f.rotation, q->pose.rotation, sizeof f.rotation);
-    f.dofs = mps__step_freedom(w->setup.dim, freedom);
+    mps__step_freedom(w->setup.dim, freedom);
+    f.count = q->columns.count;
     mps__step_load_now(s, &arrays, force);
     MPS__TRY(solve_body(q, force, change, &next));
     MPS__TRY(mps__world_check_pose(w, &w->motion, &q->pose, MPS_E_DIVERGED));
     mps__motion_view_next(&q->pose, &q->view.tank);
-    for (int32_t k = 0; k < f.dofs; k++) f.change[k] = change[freedom[k]];
+    for (int32_t c = 0; c < f.count; c++) f.change[c] = change[freedom[q->columns.degree[c]]];
     MPS__TRY(check_way(s, &f));
     mps_stage_rows(s, &correct_rows, &f);
     mps__step_note_jump(s, f.tank);

@@ -161,9 +161,9 @@ typedef struct mps__load {
 typedef struct mps__mass {
     /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
     double *guess;
-    double *next;              /* [n*dofs] that of the step in progress */
-    double *moments, *rhs, *p; /* [rows*dim], [rows], [columns] */
-    double *a;                 /* [n*dofs*dim] change of accelerations */
+    double *next;              /* [n*count] by each column of the step in progress */
+    double *moments, *rhs, *p; /* [n*dim], [rows], [columns] */
+    double *a;                 /* [n*count*dim] change of accelerations */
     int64_t next_capacity, moment_capacity, rhs_capacity, p_capacity, a_capacity;
 } mps__mass;
 
