@@ -252,6 +252,16 @@ void *mps__twins_given(mps__twins *t, void *array, bool all)
     return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
 }
 
+mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes)
+{
+    const mps__twin *twin = t->open ? find(t, array) : NULL;
+    if (twin && twin->old[MPS__ON_HOST])
+        mps__device_download(&t->device, out, address(twin, array), bytes);
+    else
+        memcpy(out, array, bytes);
+    return mps__device_status(&t->device);
+}
+
 static void see_pairs(mps__twins *t, mps_stencil *s)
 {
     s->x = mps__twins_seen(t, s->x);

@@ -71,6 +71,8 @@ int32_t mps__twins_go(mps__twins *t, int32_t place);
 void *mps__twins_seen(mps__twins *t, const void *array);
 /* The same for loops that write it. `all`: they write all that is read afterwards. */
 void *mps__twins_given(mps__twins *t, void *array, bool all);
+/* Copy `bytes` of the newest values of such an array, from where they are. MPS_E_PLUGIN */
+mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes);
 /* Arrays of a view, likewise; with those of constants where loops see it. */
 void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);

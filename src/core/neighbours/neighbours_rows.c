@@ -2,6 +2,7 @@
 /* Exact rows at positions that have changed since the search, from its candidates, and what screens hide. */
 #include "neighbours_rows.h"
 #include "loop.h"
+#include "scan.h"
 #include <math.h>
 
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
@@ -179,13 +180,30 @@ void mps__neighbours_rows(mps_neighbours *l, const double *x)
     mps__neighbours_hide(l);
 }
 
-mps_status mps__neighbours_near(mps_neighbours *l)
+/* Near pairs of a row, one place on: a sum over these up to a row is the begin of the row. */
+typedef struct nears {
+    const int64_t *begin, *middle;
+    int64_t *near_begin;
+} nears;
+
+MPS_ROW void near_row(const int dim, const nears *f, int64_t i)
 {
-    l->near_begin[0] = 0;
-    for (int64_t i = 0; i < l->n; i++)
-        l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
-    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n],
+    (void)dim;
+    f->near_begin[i] = i > 0 ? f->middle[i - 1] - f->begin[i - 1] : 0;
+}
+MPS__LOOP(near_rows, near_row, nears)
+
+void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,
+                          int64_t *near_begin)
+{
+    mps__loop_run_cheap(l->parallel, &near_rows, MPS__ANY_DIM, l->n + 1,
+                        &(nears){begin, middle, near_begin});
+    mps__scan(l->parallel, near_begin, l->n + 1);
+}
+
+mps_status mps__neighbours_near_fit(mps_neighbours *l, int64_t pairs)
+{
+    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, pairs,
                                  sizeof *l->near_col));
-    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n],
-                               sizeof *l->w_r2);
+    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, pairs, sizeof *l->w_r2);
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* What a step stands on: domain, lost particles, sorted particles, neighbour lists, dummies and their walls. */
 #include "plates.h"
+#include "scan.h"
 #include "world_ranks.h"
 #include <string.h>
 
@@ -404,6 +405,8 @@ mps_status mps__world_lists_twins(mps__world *w)
     MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, true));
     if (l->end != l->middle)
         MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, true));
+    MPS__TRY(mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, mps__scan_room(n + 1),
+                              sizeof *l->near_begin, false));
     MPS__TRY(mps__twins_block(t, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col, true));
     MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
     return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), true);
