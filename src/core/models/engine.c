@@ -80,7 +80,8 @@ static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place)
 
 void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel)
 {
-    *t = (mps__twins){.channels = c, .particles = s, .parallel = parallel, .told = -1};
+    *t = (mps__twins){
+        .channels = c, .particles = s, .parallel = parallel, .told = -1, .changes = -1};
     mps__device_init(&t->device, c->context);
     t->last.struct_size = sizeof t->last;
 }
@@ -144,9 +145,11 @@ static mps_status open_fields(mps__twins *t)
         const mps__field *f = &t->particles->field[k];
         mps__twin *twin = &t->list[FIELDS + k];
         const size_t bytes = (size_t)t->particles->n * (size_t)f->components * f->size;
-        MPS__TRY(fit(t, twin, bytes, f->size));
+        if (t->changes != t->particles->changes || twin->bytes != bytes) {
+            MPS__TRY(fit(t, twin, bytes, f->size));
+            outdate(t, twin, twin->data);
+        }
         twin->host = *f->data;
-        outdate(t, twin, twin->data);
     }
     return MPS_OK;
 }
@@ -165,7 +168,7 @@ mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!mps__device_there(&t->device)) return MPS_OK;
     mps__device_begin(&t->device);
-    for (int32_t k = 0; k < ALL; k++) t->list[k].bytes = 0;
+    for (int32_t k = 0; k < FIELDS; k++) t->list[k].bytes = 0;
     for (int32_t k = 0; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
     MPS__TRY(open_constants(t));
     MPS__TRY(open_fields(t));
@@ -198,6 +201,7 @@ void mps__twins_close(mps__twins *t)
     if (!t->open) return;
     mps__twins_go(t, MPS__ON_HOST);
     mps__twins_fields_ready(t);
+    t->changes = t->device.failed ? -1 : t->particles->changes;
     t->last = t->device.info;
     t->open = false;
 }

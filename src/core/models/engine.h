@@ -36,9 +36,10 @@ typedef struct mps__twin {
 
 typedef struct mps__twins {
     mps__device device;
-    mps_device_info last;                  /* what the device did in the last step */
-    bool open;                             /* a step is in progress */
-    int32_t place;                         /* of loops now */
+    mps_device_info last; /* what the device did in the last step */
+    bool open;            /* a step is in progress */
+    int64_t changes; /* those of the particles when a step ended; fields have their twins since */
+    int32_t place;   /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
     mps__channels *channels;
     mps__particles *particles;
@@ -55,7 +56,8 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
 mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops);
 /* Everything is on the host again, and nothing is held. */
 void mps__twins_free(mps__twins *t);
-/* A step begins: room for all fields and for what its calls use, all values are on the host. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* A step begins: room for all fields and for what its calls use. All values are on the host, those of fields that nothing has changed since the
+ * step before on the device too. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
 /* The array of a block in this step; `values`: it has some, on the host. Without a step on a device nothing is done. */
 mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,

@@ -71,6 +71,7 @@ static void start(mps__world *w, mps__budget *budget)
     mps__particles *s = &w->particles;
     if (!w->state.start_pending) return;
     w->state.start_pending = 0;
+    s->changes++;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);

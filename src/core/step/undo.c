@@ -34,7 +34,8 @@ mps_status mps__undo_keep(mps__world *w)
 
 void mps__undo_restore(mps__world *w, const double *before)
 {
-    const mps__particles *s = &w->particles;
+    mps__particles *s = &w->particles;
+    s->changes++;
     for (int32_t k = 0; k < s->fields; k++)
         if (s->field[k].undone)
             memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));

@@ -203,6 +203,7 @@ mps_status mps__world_reserve(mps__world *w)
 static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
+    w->particles.changes++;
     MPS__TRY(mps__world_link_walls(w));
     MPS__TRY(mps__plates_find(w));
     mps__neighbours_hide(&w->lists.neighbours);
