@@ -416,6 +416,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     const bool sorted = l->sorted;
     if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, NULL, re_far));
     l->sorted = l->valid = false;
+    l->searches++;
     MPS__TRY(reserve(l, n));
     if (re_near < re_far)
         MPS__TRY(
