@@ -266,6 +266,7 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
     if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_HOST) mps__twins_rows_ready(&h->twins);
     if (place == MPS__ON_HOST && call->model) mps__twins_lists_ready(&h->twins);
     for (int32_t u = 0; u < call->use_count; u++)
         if (!(call->uses[u].access & MPS__USE_BEGIN))
@@ -422,6 +423,7 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
         h->twins.device.info.host_calls += h->twins.open && place_of(h, call) == MPS__ON_HOST;
         begin_channels(h, call, place_of(h, call));
         make_ready(h, call, place_of(h, call));
+        if (status == MPS_OK) status = mps__device_status(&h->twins.device);
         if (status == MPS_OK) status = run_checked(h, s, v, call);
         if (hook == MPS_LIMIT && s->dt_limit < limit) h->limiter = k;
         call->cost.calls++;
