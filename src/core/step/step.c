@@ -104,8 +104,8 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
         MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
     MPS__TRY(mps__world_lists_twins(w));
-    mps__host_tell_places(&w->host);
     mps__step_open(q);
+    mps__host_tell_places(&w->host);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));
     mps__host_book(&w->host, MPS__OPEN);

@@ -196,7 +196,6 @@ static mps_status move_body(mps_stage *s)
     double force[6], change[6];
     int32_t freedom[6];
     mps_motion_state next;
-    if (!mps__body_carries(w)) return MPS_OK;
     if (w->work.bodies)
         return mps__fail(w->context, MPS_E_STATE,
                          "a body carries the tank, and a model moves solids in it (it writes "
@@ -224,6 +223,12 @@ static const mps_use body_uses[USES] = {
     [REGION] = {"region", MPS_USE_NEIGHBOURS},
     [PLACE] = {"solid_place", MPS_USE_READ}};
 
+static bool carries_none(const void *step)
+{
+    const mps__step *q = step;
+    return !mps__body_carries(q->w);
+}
+
 const mps__pass mps__pass_body = {.name = "body",
                                   .hook = MPS_GRADIENT,
                                   .place = MPS__AFTER_MODELS,
@@ -231,7 +236,8 @@ const mps__pass mps__pass_body = {.name = "body",
                                   .everywhere = true,
                                   .use_count = USES,
                                   .uses = body_uses,
-                                  .run = move_body};
+                                  .run = move_body,
+                                  .idle = carries_none};
 
 /* What the step did to the liquid beside what the body felt. */
 void mps__step_body_end(mps__step *q)
