@@ -281,6 +281,7 @@ static int do_all(coefficients *k)
     const int worst = run_all(k);
     bool any = false;
     for (int32_t i = 0; i < k->degrees * k->count; i++) any = any || isfinite(k->result[i].omega);
+    coefficients_sort(k);
     if (any) coefficients_print(k);
     const int saved = any ? coefficients_save(k) : MPS_EXIT_OK;
     free(k->result);

@@ -21,6 +21,8 @@ typedef struct coefficients {
 
 /* Loads of which there is a result, of a motion. */
 bool coefficients_has(const coefficients *k, int32_t load);
+/* Bring results to ascending frequencies, those of frequencies without any to the end. */
+void coefficients_sort(coefficients *k);
 /* Print a table for each pair of degrees. */
 void coefficients_print(const coefficients *k);
 /* coefficients.csv and coefficients.dat. @return exit code */

@@ -33,6 +33,32 @@ static const forced *first_of(const coefficients *k, int32_t at)
     return NULL;
 }
 
+/* The first result of a frequency, of any motion; NULL: none has it. */
+static const forced *any_of(const coefficients *k, int32_t n)
+{
+    for (int32_t at = 0; at < k->degrees; at++)
+        if (isfinite(k->result[at * k->count + n].omega)) return &k->result[at * k->count + n];
+    return NULL;
+}
+
+static double omega_of(const coefficients *k, int32_t n)
+{
+    const forced *any = any_of(k, n);
+    return any ? any->omega : INFINITY;
+}
+
+void coefficients_sort(coefficients *k)
+{
+    for (int32_t last = 1; last < k->count; last++)
+        for (int32_t n = last; n > 0 && omega_of(k, n) < omega_of(k, n - 1); n--)
+            for (int32_t at = 0; at < k->degrees; at++) {
+                forced *f = &k->result[at * k->count + n];
+                const forced higher = f[-1];
+                f[-1] = *f;
+                *f = higher;
+            }
+}
+
 bool coefficients_has(const coefficients *k, int32_t load)
 {
     for (int32_t at = 0; at < k->degrees; at++) {
@@ -87,14 +113,6 @@ static void write_header(const coefficients *k, FILE *out)
                     unit_of(k, UNIT_C, i, j));
         }
     fputc('\n', out);
-}
-
-/* The first result of a frequency, of any motion; NULL: none has it. */
-static const forced *any_of(const coefficients *k, int32_t n)
-{
-    for (int32_t at = 0; at < k->degrees; at++)
-        if (isfinite(k->result[at * k->count + n].omega)) return &k->result[at * k->count + n];
-    return NULL;
 }
 
 static void write_row(const coefficients *k, FILE *out, int32_t n)

@@ -88,4 +88,11 @@
                row(dim_, &given_->fields, i_, own_); MPSK__STORE((sums) + (maxima)))              \
     static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
 
+/* What the host has of its own for a loop is for its vectors. */
+#undef MPS__LOOP_CHEAP
+#define MPS__LOOP_CHEAP(name, row, type) MPS__LOOP(name, row, type)
+#undef MPS__VALUES_BY
+#define MPS__VALUES_BY(name, row, range, type, sums, maxima) \
+    MPS__VALUES(name, row, type, sums, maxima)
+
 #endif

@@ -51,8 +51,6 @@ static int check(const mps_ppe_problem *problem)
 /* What a loop over the unknowns works on; each uses its own. */
 typedef struct operands {
     const mps_ppe_problem *problem;
-    const auxgrid *a;
-    const double *r;
     double *z;
 } operands;
 
@@ -114,20 +112,17 @@ static int setup(void *self, const mps_ppe_problem *problem)
     return reason;
 }
 
-static void apply_rows(void *argument, int64_t begin, int64_t end)
+typedef struct application {
+    mps__grid_points points;
+    const double *inverse, *r;
+    double *z;
+} application;
+
+MPS_ROW void apply_row(const int dim, const application *o, int64_t i)
 {
-    const operands *o = argument;
-    const mps__grid *g = &o->a->grid;
-    const mps__grid_level first = g->level[0]; /* its pointers stay in registers */
-    const double *inverse = o->a->inverse, *r = o->r;
-    double *z = o->z;
-    if (g->dim == 2)
-        for (int64_t i = begin; i < end; i++)
-            z[i] = inverse[i] * r[i] + mps__grid_value_of(&first, 4, i);
-    else
-        for (int64_t i = begin; i < end; i++)
-            z[i] = inverse[i] * r[i] + mps__grid_value_of(&first, 8, i);
+    o->z[i] = o->inverse[i] * o->r[i] + mps__grid_value(dim, &o->points, i);
 }
+MPS__LOOP(apply_rows, apply_row, application)
 
 static int apply(void *self, const double *r, double *z)
 {
@@ -137,8 +132,8 @@ static int apply(void *self, const double *r, double *z)
     int reason = mps__grid_restrict(g, r, g->unit);
     if (!reason) reason = mps__grid_cycle(g);
     if (reason) return reason;
-    mps_parallel_rows_least(g->parallel, a->n, MPS__TEAM_LEAST / 2, apply_rows,
-                            &(operands){.a = a, .r = r, .z = z});
+    mps__loop_run_cheap(g->parallel, &apply_rows, g->dim, a->n,
+                        &(application){mps__grid_points_of(&g->level[0]), a->inverse, r, z});
     return 0;
 }
 

@@ -4,6 +4,7 @@
 #ifndef MPS_PPE_AUXGRID_H
 #define MPS_PPE_AUXGRID_H
 
+#include "loop.h"
 #include <mps/ppe.h>
 #include <stdbool.h>
 
@@ -44,6 +45,11 @@ typedef struct mps__grid_level {
     double *count;   /* [cells] particles */
     double *b,
         *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
+    /* on a device alone: cells of the finer grid that add to each of this one */
+    int32_t *first; /* [cells + 1] */
+    int32_t *from;  /* [first[cells]] ascending for each */
+    float *part;    /* [first[cells]] of what is left of their right side */
+    double *rest;   /* [red] that, of the own cells */
 } mps__grid_level;
 
 /* Room that grows and is kept; its contents are not. */
@@ -258,19 +264,30 @@ int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values);
 bool mps__grid_factorise(mps__grid *g);
 /* One V-cycle from b to x of the first grid. Returns 0 or a reason of failure. */
 int mps__grid_cycle(mps__grid *g);
-/* Value of a point from the cells around it. For a constant number of corners, 2^dim, the loop unrolls. */
-static inline double mps__grid_value_of(const mps__grid_level *l, const int corners, int64_t point)
+
+/* How points take values from the cells of a level. */
+typedef struct mps__grid_points {
+    const int32_t *home, *about;
+    const uint8_t *side;
+    const float *share;
+    const double *x;
+} mps__grid_points;
+
+static inline mps__grid_points mps__grid_points_of(const mps__grid_level *l)
 {
-    const int32_t *about = l->about + (int64_t)l->home[point] * (corners == 4 ? 9 : 27);
-    const uint8_t *corner = mps__grid_corner[l->side[point]];
-    const float *share = l->share + point * corners;
-    double s = 0;
-    for (int k = 0; k < corners; k++) s += (double)share[k] * l->x[about[corner[k]]];
-    return s;
+    return (mps__grid_points){l->home, l->about, l->side, l->share, l->x};
 }
-static inline double mps__grid_value(const mps__grid_level *l, int dim, int64_t point)
+
+/* Value of a point from the cells around it. */
+MPS_ROW double mps__grid_value(const int dim, const mps__grid_points *p, int64_t point)
 {
-    return dim == 2 ? mps__grid_value_of(l, 4, point) : mps__grid_value_of(l, 8, point);
+    const int corners = 1 << dim;
+    const int32_t *about = p->about + (int64_t)p->home[point] * (dim == 2 ? 9 : MPS__GRID_ABOUT);
+    const uint8_t *corner = mps__grid_corner[p->side[point]];
+    const float *share = p->share + point * corners;
+    double s = 0;
+    for (int k = 0; k < corners; k++) s += (double)share[k] * p->x[about[corner[k]]];
+    return s;
 }
 
 #endif

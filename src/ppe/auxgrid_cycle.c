@@ -80,63 +80,75 @@ bool mps__grid_factorise(mps__grid *g)
 
 /* ---- cycle ---- */
 
-static inline double pull_from(const mps__grid_level *l, const int sides, int64_t c)
+/* What loops over the cells of a grid see; each uses its own. */
+typedef struct cells {
+    const int32_t *next;
+    const float *link;
+    const double *b, *inverse;
+    double *x;
+    int64_t red, from;       /* first black cell; first cell */
+    mps__grid_points coarse; /* the coarser grid */
+    const int32_t *list;     /* of cells, on a divided grid */
+    double *rest;
+} cells;
+
+static cells cells_of(const mps__grid_level *l)
 {
-    const int32_t *next = l->next + c * sides;
-    const float *link = l->link + c * sides;
-    double s = 0;
-    for (int k = 0; k < sides; k++) s += (double)link[k] * l->x[next[k]];
-    return s;
+    return (cells){.next = l->next,
+                   .link = l->link,
+                   .b = l->b,
+                   .inverse = l->inverse,
+                   .x = l->x,
+                   .red = l->red};
+}
+
+/* A loop over cells, which do next to nothing each. */
+static void run(const mps__grid *g, const mps__loop *loop, int64_t count, const cells *f)
+{
+    mps__loop_run_cheap(g->parallel, loop, g->dim, count, f);
 }
 
 /* What the neighbours of a cell pull it to. */
-static inline double pull(const mps__grid_level *l, int sides, int64_t c)
+MPS_ROW double pull(const int dim, const cells *f, int64_t c)
 {
-    return sides == 4 ? pull_from(l, 4, c) : pull_from(l, 6, c);
+    const int32_t *next = f->next + c * 2 * dim;
+    const float *link = f->link + c * 2 * dim;
+    double s = 0;
+    for (int k = 0; k < 2 * dim; k++) s += (double)link[k] * f->x[next[k]];
+    return s;
 }
 
-/* What a loop of the cycle works on; each uses its own. */
-typedef struct cycle {
-    mps__grid_level *l;
-    const mps__grid_level *coarse;
-    int sides;
-    int64_t from;        /* first cell */
-    const int32_t *list; /* of cells, on a divided grid */
-    double *rest;
-} cycle;
-
-/* A loop over cells, which do next to nothing each. */
-static void run(const mps__grid *g, int64_t cells, mps_range_fn rows, cycle *c)
+MPS_ROW void relax_cell(const int dim, const cells *f, int64_t c)
 {
-    mps_parallel_rows_least(g->parallel, cells, MPS__TEAM_LEAST / 2, rows, c);
+    f->x[c] = (f->b[c] + pull(dim, f, c)) * f->inverse[c];
 }
 
-static void relax_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void relax_row(const int dim, const cells *f, int64_t i)
 {
-    const cycle *y = argument;
-    const mps__grid_level level = *y->l, *l = &level; /* its pointers stay in registers */
-    const int sides = y->sides;
-    for (int64_t c = y->from + begin; c < y->from + end; c++)
-        l->x[c] = (l->b[c] + pull(l, sides, c)) * l->inverse[c];
+    relax_cell(dim, f, f->from + i);
 }
+MPS__LOOP(relax_rows, relax_row, cells)
 
 /* One colour: each cell solved for itself. */
-static void relax(const mps__grid *g, mps__grid_level *l, int64_t from, int64_t to)
+static void relax(const mps__grid *g, const mps__grid_level *l, int64_t from, int64_t to)
 {
-    run(g, to - from, relax_rows, &(cycle){.l = l, .sides = 2 * g->dim, .from = from});
+    cells f = cells_of(l);
+    f.from = from;
+    run(g, &relax_rows, to - from, &f);
 }
 
-static void begin_rows(void *argument, int64_t begin, int64_t end)
+/* Black cells: read at missing neighbours, times zero. */
+MPS_ROW void begin_row(const int dim, const cells *f, int64_t c)
 {
-    const mps__grid_level *l = ((const cycle *)argument)->l;
-    for (int64_t c = begin; c < end; c++)
-        l->x[c] = c < l->red ? l->b[c] * l->inverse[c]
-                             : 0; /* black ones: read at missing neighbours, times zero */
+    (void)dim;
+    f->x[c] = c < f->red ? f->b[c] * f->inverse[c] : 0;
 }
+MPS__LOOP(begin_rows, begin_row, cells)
 
-static void sweep_down(const mps__grid *g, mps__grid_level *l)
+static void sweep_down(const mps__grid *g, const mps__grid_level *l)
 {
-    run(g, l->cells, begin_rows, &(cycle){.l = l});
+    const cells f = cells_of(l);
+    run(g, &begin_rows, l->cells, &f);
     relax(g, l, l->red, l->cells);
     for (int s = 1; s < SWEEPS; s++) {
         relax(g, l, 0, l->red);
@@ -144,7 +156,7 @@ static void sweep_down(const mps__grid *g, mps__grid_level *l)
     }
 }
 
-static void sweep_up(const mps__grid *g, mps__grid_level *l)
+static void sweep_up(const mps__grid *g, const mps__grid_level *l)
 {
     for (int s = 0; s < SWEEPS; s++) {
         relax(g, l, l->red, l->cells);
@@ -170,95 +182,100 @@ static inline void spread(const mps__grid_level *l, int dim, int64_t point, doub
         spread_over(l, 8, point, value);
 }
 
-/* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
-static void restrict_residual(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
+/* What is left of the right side of a cell. */
+MPS_ROW double rest_of(const int dim, const cells *f, int64_t c)
 {
+    return f->b[c] + pull(dim, f, c) - f->x[c] / f->inverse[c];
+}
+
+/* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
+static void restrict_residual(const mps__grid *g, const mps__grid_level *fine,
+                              const mps__grid_level *l)
+{
+    const cells f = cells_of(fine);
     memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
     for (int64_t c = 0; c < fine->red; c++) {
         if (l->home[c] < 0) continue;
-        spread(l, g->dim, c,
-               fine->b[c] + pull(fine, 2 * g->dim, c) - fine->x[c] / fine->inverse[c]);
+        spread(l, g->dim, c, g->dim == 2 ? rest_of(2, &f, c) : rest_of(3, &f, c));
     }
 }
 
-static void correct_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void correct_row(const int dim, const cells *f, int64_t c)
 {
-    const cycle *y = argument;
-    for (int64_t c = begin; c < end; c++)
-        if (y->coarse->home[c] >= 0) y->l->x[c] += mps__grid_value(y->coarse, y->sides / 2, c);
+    if (f->coarse.home[c] >= 0) f->x[c] += mps__grid_value(dim, &f->coarse, c);
 }
+MPS__LOOP(correct_rows, correct_row, cells)
 
-static void correct(const mps__grid *g, mps__grid_level *fine, const mps__grid_level *l)
+static void correct(const mps__grid *g, const mps__grid_level *fine, const mps__grid_level *l)
 {
-    run(g, fine->cells, correct_rows, &(cycle){.l = fine, .coarse = l, .sides = 2 * g->dim});
+    cells f = cells_of(fine);
+    f.coarse = mps__grid_points_of(l);
+    run(g, &correct_rows, fine->cells, &f);
 }
 
 /* ---- divided grids: the same for the own cells, with the values of the others from their owners ---- */
 
-static void begin_listed(void *argument, int64_t begin, int64_t end)
+MPS_ROW void begin_own(const int dim, const cells *f, int64_t k)
 {
-    const cycle *y = argument;
-    const mps__grid_level *l = y->l;
-    for (int64_t k = begin; k < end; k++) {
-        const int32_t c = y->list[k];
-        l->x[c] = c < l->red ? l->b[c] * l->inverse[c] : 0;
-    }
+    begin_row(dim, f, f->list[k]);
 }
+MPS__LOOP(begin_listed, begin_own, cells)
 
-static void relax_listed(void *argument, int64_t begin, int64_t end)
+MPS_ROW void relax_own(const int dim, const cells *f, int64_t k)
 {
-    const cycle *y = argument;
-    const mps__grid_level level = *y->l, *l = &level;
-    for (int64_t k = begin; k < end; k++) {
-        const int32_t c = y->list[k];
-        l->x[c] = (l->b[c] + pull(l, y->sides, c)) * l->inverse[c];
-    }
+    relax_cell(dim, f, f->list[k]);
 }
+MPS__LOOP(relax_listed, relax_own, cells)
 
-static void rest_listed(void *argument, int64_t begin, int64_t end)
+MPS_ROW void rest_own(const int dim, const cells *f, int64_t k)
 {
-    const cycle *y = argument;
-    const mps__grid_level *l = y->l;
-    for (int64_t k = begin; k < end; k++) {
-        const int32_t c = y->list[k];
-        y->rest[c] = l->b[c] + pull(l, y->sides, c) - l->x[c] / l->inverse[c];
-    }
+    f->rest[f->list[k]] = rest_of(dim, f, f->list[k]);
 }
+MPS__LOOP(rest_listed, rest_own, cells)
 
-static void correct_listed(void *argument, int64_t begin, int64_t end)
+MPS_ROW void correct_own(const int dim, const cells *f, int64_t k)
 {
-    const cycle *y = argument;
-    for (int64_t k = begin; k < end; k++) correct_rows(argument, y->list[k], y->list[k] + 1);
+    correct_row(dim, f, f->list[k]);
+}
+MPS__LOOP(correct_listed, correct_own, cells)
+
+/* Own cells of a level, from one of them on. */
+static cells own_cells(const mps__grid *g, int k, int64_t from)
+{
+    const mps__grid_divided *d = &g->ranks.level[k];
+    cells f = cells_of(&g->level[k]);
+    f.coarse = mps__grid_points_of(&g->level[k + 1]);
+    f.list = d->cell + from;
+    f.rest = d->rest;
+    return f;
 }
 
 /* Own cells of one colour, then their values for other ranks. */
-static int relax_own(mps__grid *g, int k, bool red)
+static int relax_colour(mps__grid *g, int k, bool red)
 {
     mps__grid_divided *d = &g->ranks.level[k];
-    mps__grid_level *l = &g->level[k];
-    run(g, red ? d->own_red : d->own - d->own_red, relax_listed,
-        &(cycle){.l = l, .sides = 2 * g->dim, .list = d->cell + (red ? 0 : d->own_red)});
-    return mps__grid_plan_share(g, &d->ring, l->x);
+    const cells f = own_cells(g, k, red ? 0 : d->own_red);
+    run(g, &relax_listed, red ? d->own_red : d->own - d->own_red, &f);
+    return mps__grid_plan_share(g, &d->ring, f.x);
 }
 
 static int sweep_down_own(mps__grid *g, int k)
 {
     mps__grid_divided *d = &g->ranks.level[k];
-    mps__grid_level *l = &g->level[k];
-    run(g, d->own, begin_listed, &(cycle){.l = l, .list = d->cell});
-    int reason = mps__grid_plan_share(g, &d->ring, l->x);
-    for (int s = 1; s < 2 * SWEEPS && !reason; s++) reason = relax_own(g, k, s % 2 == 0);
+    const cells f = own_cells(g, k, 0);
+    run(g, &begin_listed, d->own, &f);
+    int reason = mps__grid_plan_share(g, &d->ring, f.x);
+    for (int s = 1; s < 2 * SWEEPS && !reason; s++) reason = relax_colour(g, k, s % 2 == 0);
     return reason;
 }
 
 static int sweep_up_own(mps__grid *g, int k)
 {
     mps__grid_divided *d = &g->ranks.level[k];
-    mps__grid_level *l = &g->level[k];
-    run(g, d->own, correct_listed,
-        &(cycle){.l = l, .coarse = l + 1, .sides = 2 * g->dim, .list = d->cell});
-    int reason = mps__grid_plan_share(g, &d->ring, l->x);
-    for (int s = 0; s < 2 * SWEEPS && !reason; s++) reason = relax_own(g, k, s % 2 == 1);
+    const cells f = own_cells(g, k, 0);
+    run(g, &correct_listed, d->own, &f);
+    int reason = mps__grid_plan_share(g, &d->ring, f.x);
+    for (int s = 0; s < 2 * SWEEPS && !reason; s++) reason = relax_colour(g, k, s % 2 == 1);
     return reason;
 }
 
@@ -266,9 +283,9 @@ static int sweep_up_own(mps__grid *g, int k)
 static int restrict_own(mps__grid *g, int k)
 {
     mps__grid_divided *d = &g->ranks.level[k];
-    mps__grid_level *fine = &g->level[k], *l = fine + 1;
-    run(g, d->own_red, rest_listed,
-        &(cycle){.l = fine, .sides = 2 * g->dim, .list = d->cell, .rest = d->rest});
+    const mps__grid_level *l = &g->level[k + 1];
+    const cells f = own_cells(g, k, 0);
+    run(g, &rest_listed, d->own_red, &f);
     const int reason = mps__grid_plan_share(g, &d->left, d->rest);
     memset(l->b, 0, (size_t)l->cells * sizeof *l->b);
     for (int64_t a = 0; a < d->adding; a++) spread(l, g->dim, d->add[a], d->rest[d->add[a]]);

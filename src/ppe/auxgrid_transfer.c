@@ -25,9 +25,6 @@ typedef struct transfer {
     mps__grid *g;
     mps__grid_level *l;
     const mps_ppe_problem *problem;
-    const double *values;
-    double scale;
-    double *parts; /* [cells + 1][3^dim] */
 } transfer;
 
 /* ---- particles by cell ---- */
@@ -139,106 +136,103 @@ void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps_
 
 /* ---- from the particles to the cells ---- */
 
-/* What a particle adds to its cell and to the cells about it. */
-static inline __attribute__((always_inline)) void add_value(const int corners, const transfer *t,
-                                                            const mps__grid_level *l, int64_t i)
+/* What loops over particles and cells see. */
+typedef struct adding {
+    mps__grid_points to;
+    const int32_t *list, *start, *turn;
+    const double *values;
+    double scale;
+    double *parts; /* [cells + 1][3^dim] */
+    double *b;
+} adding;
+
+static adding adding_of(const mps__grid *g, const double *values, double scale)
 {
-    double *part = t->parts + (int64_t)l->home[i] * (corners == 4 ? 9 : 27);
-    const uint8_t *corner = mps__grid_corner[l->side[i]];
-    const float *share = l->share + i * corners;
+    const mps__grid_level *l = &g->level[0];
+    return (adding){
+        mps__grid_points_of(l), g->list, g->start, g->turn, values, scale, g->parts, l->b};
+}
+
+/* What a particle adds to its cell and to the cells about it. */
+MPS_ROW void add_value(const int dim, const adding *t, int64_t i)
+{
+    const int corners = 1 << dim;
+    double *part = t->parts + (int64_t)t->to.home[i] * (dim == 2 ? 9 : MPS__GRID_ABOUT);
+    const uint8_t *corner = mps__grid_corner[t->to.side[i]];
+    const float *share = t->to.share + i * corners;
     const double value = t->scale * t->values[i];
     for (int k = 0; k < corners; k++) part[corner[k]] += (double)share[k] * value;
 }
 
 /* Particles as they lie in memory: the fastest way of one thread. */
-static void add_rows(void *argument, int64_t begin, int64_t end)
+static void add_all(int dim, int64_t n, const adding *given)
 {
-    const transfer t = *(const transfer *)argument;
-    const mps__grid_level l = *t.l; /* its pointers stay in registers */
-    if (t.g->dim == 2)
-        for (int64_t i = begin; i < end; i++) add_value(4, &t, &l, i);
+    const adding t = *given; /* its pointers stay in registers */
+    if (dim == 2)
+        for (int64_t i = 0; i < n; i++) add_value(2, &t, i);
     else
-        for (int64_t i = begin; i < end; i++) add_value(8, &t, &l, i);
+        for (int64_t i = 0; i < n; i++) add_value(3, &t, i);
 }
 
-/* Particles of some cells: threads do not write to the same cells. The order in each cell is that of one thread. */
-static void add_turns(void *argument, int64_t begin, int64_t end)
+/* Particles of a cell: threads do not write to the same cells. The order in each cell is that of one thread. */
+MPS_ROW void add_turn(const int dim, const adding *t, int64_t turn)
 {
-    const transfer t = *(const transfer *)argument;
-    const mps__grid_level l = *t.l;
-    const int32_t *list = t.g->list, first = t.g->start[begin], last = t.g->start[end];
-    if (t.g->dim == 2)
-        for (int32_t p = first; p < last; p++) add_value(4, &t, &l, list[p]);
-    else
-        for (int32_t p = first; p < last; p++) add_value(8, &t, &l, list[p]);
+    for (int32_t p = t->start[turn]; p < t->start[turn + 1]; p++) add_value(dim, t, t->list[p]);
 }
+MPS__LOOP(add_turns, add_turn, adding)
 
 /* The parts for a cell; those of the cell that stands for none are zero. */
-static inline __attribute__((always_inline)) void
-sum_of(const int all, const mps__grid *g, mps__grid_level *l, int64_t begin, int64_t end)
+MPS_ROW void sum_cell(const int dim, const adding *t, int64_t c)
 {
-    const double *parts = g->parts;
-    for (int64_t c = begin; c < end; c++) {
-        const int32_t *about = l->about + c * all;
-        double sum = 0;
-        for (int k = 0; k < all; k++) sum += parts[(int64_t)about[k] * all + opposite[k]];
-        l->b[c] = sum;
-    }
+    const int all = dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int32_t *about = t->to.about + c * all;
+    double sum = 0;
+    for (int k = 0; k < all; k++) sum += t->parts[(int64_t)about[k] * all + opposite[k]];
+    t->b[c] = sum;
 }
-
-static void sum_cells(void *argument, int64_t begin, int64_t end)
-{
-    const transfer *t = argument;
-    if (t->g->dim == 2)
-        sum_of(9, t->g, t->l, begin, end);
-    else
-        sum_of(27, t->g, t->l, begin, end);
-}
+MPS__LOOP(sum_cells, sum_cell, adding)
 
 /* Parts of the cells that this rank owns; those of all others come from other ranks or stay zero. */
-static void clear_turns(void *argument, int64_t begin, int64_t end)
+MPS_ROW void clear_turn(const int dim, const adding *t, int64_t turn)
 {
-    const transfer *t = argument;
-    const int all = t->g->dim == 2 ? 9 : MPS__GRID_ABOUT;
-    for (int64_t k = begin; k < end; k++)
-        memset(t->parts + (int64_t)t->g->turn[k] * all, 0, (size_t)all * sizeof *t->parts);
+    const int all = dim == 2 ? 9 : MPS__GRID_ABOUT;
+    memset(t->parts + (int64_t)t->turn[turn] * all, 0, (size_t)all * sizeof *t->parts);
 }
+MPS__LOOP(clear_turns, clear_turn, adding)
 
-static void sum_turns(void *argument, int64_t begin, int64_t end)
+MPS_ROW void sum_turn(const int dim, const adding *t, int64_t turn)
 {
-    const transfer *t = argument;
-    const int32_t *turn = t->g->turn;
-    for (int64_t k = begin; k < end; k++) sum_cells(argument, turn[k], turn[k] + 1);
+    sum_cell(dim, t, t->turn[turn]);
 }
+MPS__LOOP(sum_turns, sum_turn, adding)
 
 static int restrict_ranks(mps__grid *g, const double *values, double scale)
 {
     mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(g->parallel, l->points);
-    transfer t = {.g = g, .l = l, .values = g->ranks.value, .scale = scale, .parts = g->parts};
+    const adding t = adding_of(g, g->ranks.value, scale);
     int reason = mps__grid_ranks_share(g, values);
     if (reason) return reason;
-    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, clear_turns, &t);
-    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, add_turns, &t);
+    mps__loop_run(team, &clear_turns, g->dim, g->turns, &t);
+    mps__loop_run(team, &add_turns, g->dim, g->turns, &t);
     reason = mps__grid_ranks_exchange(g);
     if (reason) return reason;
-    mps_parallel_rows_least(team, g->turns, MPS__GRID_TURNS, sum_turns, &t);
+    mps__loop_run(team, &sum_turns, g->dim, g->turns, &t);
     /* the cycle on a divided grid takes the right side of the own cells */
     return g->ranks.divided > 0 ? 0 : mps__grid_ranks_collect(g, &g->ranks.owned, 1, &l->b);
 }
 
 int mps__grid_restrict(mps__grid *g, const double *values, double scale)
 {
-    mps__grid_level *l = &g->level[0];
+    const mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(g->parallel, l->points);
-    transfer t = {.g = g, .l = l, .values = values, .scale = scale, .parts = g->parts};
+    const adding t = adding_of(g, values, scale);
     if (mps__grid_many(g)) return restrict_ranks(g, values, scale);
-    memset(t.parts, 0,
-           (size_t)(l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) * sizeof *t.parts);
-    if (team && team->threads > 1)
-        mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, add_turns, &t);
+    mps__vectors_clear(team, (l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT), t.parts);
+    if (team && (team->threads > 1 || mps__device_of(team)))
+        mps__loop_run(team, &add_turns, g->dim, g->turns, &t);
     else
-        add_rows(&t, 0, l->points);
-    mps_parallel_rows_least(team, l->cells, MPS__GRID_TURNS, sum_cells, &t);
+        add_all(g->dim, l->points, &t);
+    mps__loop_run(team, &sum_cells, g->dim, l->cells, &t);
     return 0;
 }

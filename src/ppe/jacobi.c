@@ -2,6 +2,7 @@
 /* jacobi: the inverse of the diagonal. */
 #include "builtin.h"
 #include "kernels.h"
+#include "loop.h"
 #include <math.h>
 
 typedef struct jacobi {
@@ -30,43 +31,42 @@ static bool reserve(jacobi *j, int64_t n)
     return j->inverse;
 }
 
+/* What is wrong with the diagonal. */
+enum { POISON, NEGATIVE, VALUES };
+
+typedef struct operands {
+    const double *x;
+    double *z;
+} operands;
+
+MPS_ROW void invert_row(const int dim, const operands *o, int64_t i, double *found)
+{
+    const double d = o->x[i];
+    (void)dim;
+    if (!isfinite(d)) found[POISON] = 1;
+    if (d < 0) found[NEGATIVE] = 1;
+    /* an empty row is a particle without neighbours, its residual is 0 */
+    o->z[i] = d > 0 ? 1 / d : 1;
+}
+MPS__VALUES(invert_rows, invert_row, operands, 0, VALUES)
+
 static int setup(void *self, const mps_ppe_problem *problem)
 {
     jacobi *j = self;
     if (!reserve(j, problem->n)) return MPS_PPE_NOMEM;
     j->n = problem->n;
     j->parallel = problem->parallel;
-    bool poison = false, negative = false;
-    for (int64_t i = 0; i < problem->n; i++) {
-        const double d = problem->diagonal[i];
-        poison = poison || !isfinite(d);
-        negative = negative || d < 0;
-        /* an empty row is a particle without neighbours, its residual is 0 */
-        j->inverse[i] = d > 0 ? 1 / d : 1;
-    }
-    if (mps__on_any_rank(problem, poison)) return MPS_PPE_NAN;
-    return mps__on_any_rank(problem, negative) ? MPS_PPE_INDEFINITE : 0;
-}
-
-typedef struct operands {
-    const double *inverse, *r;
-    double *z;
-} operands;
-
-static void apply_rows(void *argument, int64_t begin, int64_t end)
-{
-    const operands *o = argument;
-    const double *inverse = o->inverse, *r = o->r;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = inverse[i] * r[i];
+    double found[VALUES] = {0};
+    mps__values_run(mps__team(problem->parallel, problem->n), &invert_rows, MPS__ANY_DIM,
+                    problem->n, &(operands){.x = problem->diagonal, .z = j->inverse}, NULL, found);
+    mps_ppe_total(problem, &(mps_exact_values){.maxima = VALUES, .maximum = found});
+    return found[POISON] > 0 ? MPS_PPE_NAN : found[NEGATIVE] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
 static int apply(void *self, const double *r, double *z)
 {
     const jacobi *j = self;
-    mps_parallel_rows_least(j->parallel, j->n, MPS__TEAM_LEAST / 2, apply_rows,
-                            &(operands){j->inverse, r, z});
+    mps__vectors_product(j->parallel, j->n, j->inverse, r, z);
     return 0;
 }
 

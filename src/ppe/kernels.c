@@ -2,6 +2,7 @@
 /* Memory, reductions, row products and the null space: what all solvers share. */
 #define _POSIX_C_SOURCE 200809L
 #include "kernels.h"
+#include "loop.h"
 #include <math.h>
 #include <string.h>
 #include <time.h>
@@ -33,26 +34,17 @@ bool mps__on_any_rank(const mps_ppe_problem *problem, bool here)
     return any > 0;
 }
 
-typedef struct dot {
-    const double *x, *y;
-} dot;
-
-static void dot_rows(void *argument, int64_t begin, int64_t end, mps_exact *sum, double *none)
-{
-    const dot *d = argument;
-    (void)none;
-    mps_exact_add_products(sum, end - begin, d->x + begin, d->y + begin);
-}
-
-double mps__dot_product(const mps_ppe_problem *problem, const double *x, const double *y)
-{
-    mps_exact sum = {{0}, 0, 0};
-    mps__reduce(problem, dot_rows, &(dot){x, y}, &(mps_exact_values){.sums = 1, .sum = &sum});
-    return mps_exact_value(&sum);
-}
+/* Rows of the matrix. */
+typedef struct product {
+    const int64_t *row;
+    const int32_t *col;
+    const float *val;
+    const double *diagonal, *x;
+    double *y;
+} product;
 
 /* Four sums: one would wait for each addition. */
-static double row_dot(const float *val, const int32_t *col, int64_t count, const double *x)
+MPS_ROW double row_dot(const float *val, const int32_t *col, int64_t count, const double *x)
 {
     double s[4] = {0};
     int64_t k = 0;
@@ -62,63 +54,48 @@ static double row_dot(const float *val, const int32_t *col, int64_t count, const
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
-typedef struct multiply {
-    const mps_ppe_problem *problem;
-    const double *x;
-    double *y;
-} multiply;
+MPS_ROW void multiply_row(const int dim, const product *m, int64_t i, double *values)
+{
+    const int64_t first = m->row[i];
+    (void)dim;
+    m->y[i] = m->diagonal[i] * m->x[i] +
+              row_dot(m->val + first, m->col + first, m->row[i + 1] - first, m->x);
+    values[0] = m->x[i] * m->y[i];
+}
 
 /* Blocks: their products are summed while they are in cache. */
-static void multiply_rows(void *argument, int64_t begin, int64_t end, mps_exact *sum, double *none)
+static void multiply_range(const product *m, int64_t begin, int64_t end, mps_exact *sum,
+                           double *none)
 {
-    const multiply *m = argument;
-    const mps_ppe_problem *problem = m->problem;
-    const int64_t *row = problem->row;
-    const int32_t *col = problem->col;
-    const float *val = problem->val;
-    const double *x = m->x, *diagonal = problem->diagonal;
-    double *y = m->y;
+    double row[1];
     (void)none;
     for (int64_t lo = begin, hi; lo < end; lo = hi) {
         hi = lo + MPS__BLOCK < end ? lo + MPS__BLOCK : end;
-        for (int64_t i = lo; i < hi; i++)
-            y[i] = diagonal[i] * x[i] + row_dot(val + row[i], col + row[i], row[i + 1] - row[i], x);
-        mps_exact_add_products(sum, hi - lo, x + lo, y + lo);
+        for (int64_t i = lo; i < hi; i++) multiply_row(MPS__ANY_DIM, m, i, row);
+        mps_exact_add_products(sum, hi - lo, m->x + lo, m->y + lo);
     }
 }
+MPS__VALUES_BY(multiply_rows, multiply_row, multiply_range, product, 1, 0)
 
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y)
 {
     mps_exact sum = {{0}, 0, 0};
     if (mps_ppe_share(problem, (double *)x)) return NAN;
-    mps__reduce(problem, multiply_rows, &(multiply){problem, x, y},
-                &(mps_exact_values){.sums = 1, .sum = &sum});
+    mps__values_run(
+        mps__team(problem->parallel, problem->n), &multiply_rows, MPS__ANY_DIM, problem->n,
+        &(product){problem->row, problem->col, problem->val, problem->diagonal, x, y}, &sum, NULL);
+    mps_ppe_total(problem, &(mps_exact_values){.sums = 1, .sum = &sum});
     return mps_exact_value(&sum);
-}
-
-/* Largest negative of a diagonal entry. */
-static void negative_rows(void *argument, int64_t begin, int64_t end, double *values)
-{
-    const mps_ppe_problem *problem = argument;
-    double most = values[0];
-    for (int64_t i = begin; i < end; i++)
-        most = -problem->diagonal[i] > most ? -problem->diagonal[i] : most;
-    values[0] = most;
 }
 
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
-    double most = 0;
-    mps_parallel_max(mps__team(problem->parallel, problem->n), problem->n, 1, negative_rows,
-                     (mps_ppe_problem *)problem, &most);
-    return !mps__on_any_rank(problem, most > 0);
+    return !(mps__vectors_largest(problem, problem->diagonal, -1, 0) > 0);
 }
 
 void mps__guess_clean(const mps_ppe_problem *problem, double *p)
 {
-    double sum = 0; /* NaN as soon as one entry is not finite */
-    for (int64_t i = 0; i < problem->n; i++) sum += 0.0 * p[i];
-    if (mps__on_any_rank(problem, sum != 0)) memset(p, 0, (size_t)problem->n * sizeof *p);
+    if (mps__vectors_poisoned(problem, p)) mps__vectors_clear(problem->parallel, problem->n, p);
 }
 
 static void join_components(void *into, const void *from)
@@ -155,22 +132,30 @@ bool mps__guess_begin(const mps_ppe_problem *problem, double *p, double *residua
     mps__components_center(problem, p, sums);
     mps_ppe_check(problem, p, residual, result);
     if (isfinite(result->residual)) return true;
-    memset(p, 0, (size_t)problem->n * sizeof *p);
+    mps__vectors_clear(problem->parallel, problem->n, p);
     mps_ppe_check(problem, p, residual, result);
     return isfinite(result->residual);
 }
 
-bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double curvature)
+typedef struct curvature {
+    const double *diagonal, *x;
+} curvature;
+
+MPS_ROW void scale_row(const int dim, const curvature *c, int64_t i, double *values)
+{
+    (void)dim;
+    values[0] = c->diagonal[i] * c->x[i] * c->x[i];
+}
+MPS__VALUES(scale_rows, scale_row, curvature, 1, 0)
+
+bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double found)
 {
     mps_exact scale = {{0}, 0, 0};
-    for (int64_t lo = 0, n; lo < problem->n; lo += n) {
-        double part[MPS__BLOCK];
-        n = problem->n - lo < MPS__BLOCK ? problem->n - lo : MPS__BLOCK;
-        for (int64_t i = 0; i < n; i++) part[i] = problem->diagonal[lo + i] * x[lo + i];
-        mps_exact_add_products(&scale, n, part, x + lo);
-    }
+    double none[1];
+    mps__values_run(mps__team(problem->parallel, problem->n), &scale_rows, MPS__ANY_DIM, problem->n,
+                    &(curvature){problem->diagonal, x}, &scale, none);
     mps_ppe_total(problem, &(mps_exact_values){.sums = 1, .sum = &scale});
-    return -curvature > 1e-12 * mps_exact_value(&scale);
+    return -found > 1e-12 * mps_exact_value(&scale);
 }
 
 void mps__result_begin(mps_ppe_result *result)

@@ -4,6 +4,8 @@
 #ifndef MPS_PPE_KERNELS_H
 #define MPS_PPE_KERNELS_H
 
+#include "device.h"
+#include "vectors.h"
 #include <mps/exact.h>
 #include <mps/ppe.h>
 #include <stdbool.h>
@@ -11,20 +13,11 @@
 /* Elements of a block; elements that are worth a second thread in loops of next to nothing each. */
 enum { MPS__BLOCK = 1024, MPS__TEAM_LEAST = 8192 };
 
-/* The next loop has rounds that do not depend on each other: arrays in it are the same or apart. */
-#if defined(__clang__)
-#define MPS__INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
-#elif defined(__GNUC__)
-#define MPS__INDEPENDENT _Pragma("GCC ivdep")
-#else
-#define MPS__INDEPENDENT
-#endif
-
 /* The parallel-for of a loop over n elements: NULL, the calling thread alone, if there are so few
- * that the start of other threads takes longer than the loop. */
+ * that the start of other threads takes longer than the loop. That of a device stays. */
 static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
 {
-    return n < MPS__TEAM_LEAST ? NULL : p;
+    return n < MPS__TEAM_LEAST && !mps__device_of(p) ? NULL : p;
 }
 
 /* `count` elements (at least one) or NULL; not zeroed. */
@@ -34,8 +27,6 @@ void mps__give(const mps_allocator *allocator, void *block);
 /* Sums and maxima over the rows of all ranks, on all threads if it is worth it; `sum` and `maximum` as in mps_exact_rows(). */
 void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argument,
                  const mps_exact_values *values);
-/* x'y */
-double mps__dot_product(const mps_ppe_problem *problem, const double *x, const double *y);
 
 /* y = A x. @return x'y */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);

@@ -72,7 +72,7 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     mps__vector_written(vy);
     if (k->problem->law) {
         for (int64_t i = 0; i < k->space.n; i++) y[i] += k->slope[i] * x[i];
-        curvature = mps__dot_product(k->problem, x, y);
+        curvature = mps__vectors_dot(k->problem, x, y);
     }
     mps__space_remember(&k->space, x, y, curvature);
     if (!isfinite(curvature))
@@ -112,7 +112,7 @@ static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scal
     mps__vector_written(vr);
     k->failure = k->pc->apply(k->pc_self, k->inner, z);
     if (k->failure) return -1;
-    const double dot = mps__dot_product(k->problem, k->inner, z);
+    const double dot = mps__vectors_dot(k->problem, k->inner, z);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
     else if (dot <= 0)
@@ -241,7 +241,7 @@ static int attempt(newton *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    const double norm = sqrt(mps__dot_product(problem, problem->rhs, problem->rhs));
+    const double norm = sqrt(mps__vectors_dot(problem, problem->rhs, problem->rhs));
     if (norm == 0) memset(p, 0, bytes);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     const double excess = mps__result_excess(problem, result);

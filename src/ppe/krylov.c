@@ -4,7 +4,6 @@
 #include "krylov.h"
 #include "kernels.h"
 #include <math.h>
-#include <string.h>
 
 enum { IDLE_PASSES = 4 };            /* passes without progress before giving up */
 static const double DEEPEST = 1e-10; /* residual reduction of one pass */
@@ -61,7 +60,7 @@ static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolera
     const double *r = mps__vector_data(vr);
     double *z = mps__vector_data(vz);
     if (apply(k, r, z)) return -1;
-    double dot = mps__dot_product(k->problem, r, z);
+    double dot = mps__vectors_dot(k->problem, r, z);
     mps__space_remember(&k->space, r, z, dot);
     if (!isfinite(dot))
         k->failure = MPS_PPE_NAN;
@@ -145,7 +144,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     double *d = k->correction;
-    memset(d, 0, (size_t)problem->n * sizeof *d);
+    mps__vectors_clear(problem->parallel, problem->n, d);
     /* rounding must not leave what no p can produce */
     mps__components_center(problem, k->residual, k->sums);
     k->failure = 0;
@@ -162,7 +161,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
         d = k->inner;
     }
     mps__guess_clean(problem, d);
-    for (int64_t i = 0; i < problem->n; i++) p[i] += d[i];
+    mps__vectors_sum(problem->parallel, problem->n, (double[]){1, 1}, p, d, p);
     mps__components_center(problem, p, k->sums);
     mps_ppe_check(problem, p, k->residual, result);
 }
@@ -209,13 +208,12 @@ static int setup(krylov *k, mps_ppe_result *result)
 static int attempt(krylov *k, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
-    size_t bytes = (size_t)problem->n * sizeof *p;
-    double norm = sqrt(mps__dot_product(problem, problem->rhs, problem->rhs));
-    if (norm == 0) memset(p, 0, bytes);
+    double norm = sqrt(mps__vectors_dot(problem, problem->rhs, problem->rhs));
+    if (norm == 0) mps__vectors_clear(problem->parallel, problem->n, p);
     if (!mps__guess_begin(k->problem, p, k->residual, k->sums, result)) return MPS_PPE_NAN;
     double excess = mps__result_excess(problem, result);
     if (excess <= 1) return MPS_PPE_CONVERGED;
-    memcpy(k->start, p, bytes);
+    mps__vectors_copy(problem->parallel, problem->n, p, k->start);
     int reason = setup(k, result);
     if (reason) return reason;
     k->space.norm_limit = problem->tolerance * norm;
@@ -223,7 +221,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
     reason = passes(k, p, norm, result);
     bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
     if (failed || !(mps__result_excess(problem, result) <= excess)) {
-        memcpy(p, k->start, bytes);
+        mps__vectors_copy(problem->parallel, problem->n, k->start, p);
         mps_ppe_check(problem, p, k->residual, result);
     }
     return reason;

@@ -83,214 +83,101 @@ static N_Vector clone(N_Vector v)
     return w;
 }
 
-/* What an operation of a vector works on; each uses its own. */
-typedef struct operands {
-    mps__space *space;
-    double a, b;
-    const double *x, *y;
-    double *z;
-} operands;
+/* ---- operations ---- */
 
-/* Run an operation over all elements. */
-static void run(const mps__space *space, mps_range_fn rows, operands *o)
+static const double *data(N_Vector v)
 {
-    mps_parallel_rows_least(space->parallel, space->n, MPS__TEAM_LEAST / 2, rows, o);
+    return content_of(v)->data;
 }
 
-static void linear_sum_rows(void *argument, int64_t begin, int64_t end)
+static void linear_sum(sunrealtype a, N_Vector x, sunrealtype b, N_Vector y, N_Vector z)
 {
-    const operands *o = argument;
-    const double *x = o->x, *y = o->y, a = o->a, b = o->b;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = a * x[i] + b * y[i];
+    const mps__space *s = written(z);
+    mps__vectors_sum(s->parallel, s->n, (double[]){a, b}, data(x), data(y), mps__vector_data(z));
 }
 
-static void linear_sum(sunrealtype a, N_Vector vx, sunrealtype b, N_Vector vy, N_Vector vz)
+static void fill(sunrealtype a, N_Vector z)
 {
-    mps__space *space = written(vz);
-    run(space, linear_sum_rows,
-        &(operands){.a = a,
-                    .b = b,
-                    .x = mps__vector_data(vx),
-                    .y = mps__vector_data(vy),
-                    .z = mps__vector_data(vz)});
+    const mps__space *s = written(z);
+    mps__vectors_fill(s->parallel, s->n, a, mps__vector_data(z));
 }
 
-static void fill_rows(void *argument, int64_t begin, int64_t end)
+static void scale(sunrealtype a, N_Vector x, N_Vector z)
 {
-    const operands *o = argument;
-    for (int64_t i = begin; i < end; i++) o->z[i] = o->a;
-}
-
-static void fill(sunrealtype a, N_Vector vz)
-{
-    mps__space *space = written(vz);
-    run(space, fill_rows, &(operands){.a = a, .z = mps__vector_data(vz)});
-}
-
-static void scale_rows(void *argument, int64_t begin, int64_t end)
-{
-    const operands *o = argument;
-    const double *x = o->x, a = o->a;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = a * x[i];
-}
-
-static void scale(sunrealtype a, N_Vector vx, N_Vector vz)
-{
-    mps__space *space = written(vz);
-    run(space, scale_rows,
-        &(operands){.a = a, .x = mps__vector_data(vx), .z = mps__vector_data(vz)});
-}
-
-/* Squares of x, and the largest |x weight|; a NaN does not count. */
-static void excess_rows(void *argument, int64_t begin, int64_t end, mps_exact *squares,
-                        double *largest)
-{
-    const operands *o = argument;
-    const double *r = o->x, *weight = o->space->weight;
-    double most = *largest;
-    for (int64_t lo = begin, hi; lo < end; lo = hi) {
-        hi = lo + MPS__BLOCK < end ? lo + MPS__BLOCK : end;
-        mps_exact_add_products(squares, hi - lo, r + lo, r + lo);
-        for (int64_t i = lo; weight && i < hi; i++) {
-            const double size = fabs(r[i] * weight[i]);
-            most = size > most ? size : most;
-        }
-    }
-    *largest = most;
+    const mps__space *s = written(z);
+    mps__vectors_scale(s->parallel, s->n, a, data(x), mps__vector_data(z));
 }
 
 /* How far r is above the limits of both norms, in one pass. */
-static double excess(mps__space *space, const double *r)
+static double excess(const mps__space *s, const double *r)
 {
-    mps_exact squares = {{0}, 0, 0};
-    double largest = 0;
-    mps__reduce(space->problem, excess_rows, &(operands){.space = space, .x = r},
-                &(mps_exact_values){1, 1, &squares, &largest});
-    double norm = sqrt(mps_exact_value(&squares)) / space->norm_limit;
-    double divergence = space->weight ? largest / space->divergence_limit : 0;
+    double squares, largest;
+    mps__vectors_norms(s->problem, r, s->weight, &squares, &largest);
+    const double norm = sqrt(squares) / s->norm_limit,
+                 divergence = s->weight ? largest / s->divergence_limit : 0;
     return norm < divergence ? divergence : norm;
 }
 
-static void product_rows(void *argument, int64_t begin, int64_t end)
+static void product(N_Vector x, N_Vector y, N_Vector vz)
 {
-    const operands *o = argument;
-    const double *x = o->x, *y = o->y;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = x[i] * y[i];
-}
-
-static void product(N_Vector vx, N_Vector vy, N_Vector vz)
-{
-    mps__space *space = written(vz);
-    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    mps__space *s = written(vz);
     double *z = mps__vector_data(vz);
-    if (content_of(vx)->stop || content_of(vy)->stop) {
+    if (content_of(x)->stop || content_of(y)->stop) {
         /* z is only the scratch of "may I stop?", so its norm is all that is needed */
-        double e = excess(space, content_of(vx)->stop ? y : x);
-        mps__space_remember(space, z, z, e * e);
+        const double e = excess(s, data(content_of(x)->stop ? y : x));
+        mps__space_remember(s, z, z, e * e);
         return;
     }
-    run(space, product_rows, &(operands){.x = x, .y = y, .z = z});
+    mps__vectors_product(s->parallel, s->n, data(x), data(y), z);
 }
 
-static void quotient_rows(void *argument, int64_t begin, int64_t end)
+static void quotient(N_Vector x, N_Vector y, N_Vector z)
 {
-    const operands *o = argument;
-    const double *x = o->x, *y = o->y;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = x[i] / y[i];
-}
-
-static void quotient(N_Vector vx, N_Vector vy, N_Vector vz)
-{
-    mps__space *space = written(vz);
-    run(space, quotient_rows,
-        &(operands){
-            .x = mps__vector_data(vx), .y = mps__vector_data(vy), .z = mps__vector_data(vz)});
+    const mps__space *s = written(z);
+    mps__vectors_quotient(s->parallel, s->n, data(x), data(y), mps__vector_data(z));
 }
 
 static sunrealtype dot_product(N_Vector vx, N_Vector vy)
 {
     const mps__space *space = content_of(vx)->space;
-    const double *x = mps__vector_data(vx), *y = mps__vector_data(vy);
+    const double *x = data(vx), *y = data(vy);
     bool known = (x == space->dot_x && y == space->dot_y) ||
                  (x == space->dot_y && y == space->dot_x);
-    return known ? space->dot : mps__dot_product(space->problem, x, y);
+    return known ? space->dot : mps__vectors_dot(space->problem, x, y);
 }
 
-static void absolute_rows(void *argument, int64_t begin, int64_t end)
+static void absolute(N_Vector x, N_Vector z)
 {
-    const operands *o = argument;
-    const double *x = o->x;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = fabs(x[i]);
+    const mps__space *s = written(z);
+    mps__vectors_absolute(s->parallel, s->n, data(x), mps__vector_data(z));
 }
 
-static void absolute(N_Vector vx, N_Vector vz)
+static void inverse(N_Vector x, N_Vector z)
 {
-    mps__space *space = written(vz);
-    run(space, absolute_rows, &(operands){.x = mps__vector_data(vx), .z = mps__vector_data(vz)});
-}
-
-static void inverse_rows(void *argument, int64_t begin, int64_t end)
-{
-    const operands *o = argument;
-    const double *x = o->x;
-    double *z = o->z;
-    MPS__INDEPENDENT
-    for (int64_t i = begin; i < end; i++) z[i] = 1.0 / x[i];
-}
-
-static void inverse(N_Vector vx, N_Vector vz)
-{
-    mps__space *space = written(vz);
-    run(space, inverse_rows, &(operands){.x = mps__vector_data(vx), .z = mps__vector_data(vz)});
+    const mps__space *s = written(z);
+    mps__vectors_inverse(s->parallel, s->n, data(x), mps__vector_data(z));
 }
 
 static sunrealtype largest_norm(N_Vector vx)
 {
     const mps__space *space = content_of(vx)->space;
-    const double *x = mps__vector_data(vx);
-    double largest = 0;
+    const double *x = data(vx);
     if (x == space->dot_x && x == space->dot_y)
         return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
-    for (int64_t i = 0; i < space->n; i++) largest = fmax(largest, fabs(x[i]));
-    mps_ppe_total(space->problem, &(mps_exact_values){.maxima = 1, .maximum = &largest});
-    return largest;
+    return mps__vectors_largest(space->problem, x, 0, 0);
 }
 
-static sunrealtype least(N_Vector vx)
+static sunrealtype least(N_Vector x)
 {
-    const mps__space *space = content_of(vx)->space;
-    const double *x = mps__vector_data(vx);
-    if (content_of(vx)->stop) return 1;
-    double most = -INFINITY;
-    for (int64_t i = 0; i < space->n; i++) most = fmax(most, -x[i]);
-    mps_ppe_total(space->problem, &(mps_exact_values){.maxima = 1, .maximum = &most});
-    return -most;
+    if (content_of(x)->stop) return 1;
+    return -mps__vectors_largest(content_of(x)->space->problem, data(x), -1, -INFINITY);
 }
 
-static sunrealtype weighted_norm(N_Vector vx, N_Vector vw)
+static sunrealtype weighted_norm(N_Vector x, N_Vector w)
 {
-    mps__space *space = content_of(vx)->space;
-    const double *x = mps__vector_data(vx), *w = mps__vector_data(vw);
-    if (content_of(vw)->stop) return excess(space, x);
-    mps_exact squares = {{0}, 0, 0};
-    for (int64_t lo = 0, n; lo < space->n; lo += n) {
-        double part[MPS__BLOCK];
-        n = space->n - lo < MPS__BLOCK ? space->n - lo : MPS__BLOCK;
-        for (int64_t i = 0; i < n; i++) part[i] = x[lo + i] * w[lo + i];
-        mps_exact_add_products(&squares, n, part, part);
-    }
-    mps_ppe_total(space->problem, &(mps_exact_values){.sums = 1, .sum = &squares});
-    return sqrt(mps_exact_value(&squares));
+    const mps__space *space = content_of(x)->space;
+    if (content_of(w)->stop) return excess(space, data(x));
+    return sqrt(mps__vectors_squares(space->problem, data(x), data(w)));
 }
 
 static void set_ops(N_Vector v)

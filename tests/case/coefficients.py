@@ -57,7 +57,7 @@ def compare(rows, tank, load, motion, most, column=""):
 
 def quick():
     write_case("box.yaml", "40 mm", 0.24)
-    few = ("--period", "1.666666667 T1", "--periods", "4", "-j", "1")
+    few = ("--period", "1 1.666666667 T1", "--periods", "4", "-j", "1")
     run("coefficients", "box.yaml", "--degrees", "roll sweet", code=2, text="no degree")
     run("coefficients", "box.yaml", "--degrees", "roll roll", code=2, text="named twice")
     run("coefficients", "box.yaml", "--omega", "5 rad/s", "--period", "1 s", code=2, text="not both")
@@ -68,14 +68,14 @@ def quick():
     run("coefficients", "box.yaml", "--set", "motion={file: voyage.csv}", code=2, text="--degrees")
     run("coefficients", "box.yaml", *few, "-o", "out", text="coefficients.dat")
     rows, tank = read("out"), Box(0.8, 0.24)
-    check(abs(rows[0]["omega"] / tank.omega1 - 0.6) < 1e-6, "0.6 w1")
-    compare(rows, tank, "surge", "surge", 0.02)
-    compare(rows, tank, "surge", "surge", 0.04, "_walls")
+    check(len(rows) == 2 and abs(rows[0]["omega"] / tank.omega1 - 0.6) < 1e-6, "0.6 w1 before w1")
+    compare(rows[:1], tank, "surge", "surge", 0.02)
+    compare(rows[:1], tank, "surge", "surge", 0.04, "_walls")
     check(0 < rows[0]["A_surge_surge_band"] < 0.05 * rows[0]["A_surge_surge"], "the band is small")
     check(rows[0]["C_surge_surge"] == 0, "a shift has no restoring")
     with open("out/coefficients.dat", encoding="ascii") as table:
         plain = [line.split() for line in table]
-    check([p[1:3] for p in plain] == [["1", "1"], ["3", "1"], ["4", "1"]], "load and motion of the plain table")
+    check([p[1:3] for p in plain] == 2 * [["1", "1"], ["3", "1"], ["4", "1"]], "load and motion of the plain table")
     check(abs(float(plain[0][3]) / rows[0]["A_surge_surge"] - 1) < 1e-6, "A of the plain table")
     run("coefficients", "box.yaml", *few, "-o", "out", text="is done already")
     run("coefficients", "box.yaml", *few, "-o", "out", "--amplitude", "3 mm", code=2, text="another case")

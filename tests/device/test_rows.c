@@ -4,6 +4,7 @@
 #include "checkpoint_fixture.h"
 #include "launch.h"
 #include "loops.h"
+#include "scan.h"
 
 static opencl device;
 
@@ -83,8 +84,8 @@ static void all_models(void **state)
 /* Loops that ran had a kernel, but for those that scripts/device_rows leaves out. */
 static void kernels_are_there(void **state)
 {
-    static const char *const without[] = {"neighbours__search_parts", "neighbours_rows__exact_",
-                                          "voids_cells__",
+    static const char *const without[] = {"neighbours__search_parts",
+                                          "neighbours_rows__exact_parts", "voids_cells__",
                                           "levels__join_rows"}; /* ON_HOST of that script */
     int64_t launches = 0, different = 0;
     int kernels = 0;
@@ -139,6 +140,27 @@ static void sums_of_any_size(void **state)
         assert_true(mps_exact_value(&sum[1]) == INFINITY);
         assert_true(largest == (n > 1 ? 0 : -1));
     }
+}
+
+/* ---- sums up to each row ---- */
+
+/* Each of its loops is compared with the host's on the way. */
+static void scans_of_any_size(void **state)
+{
+    static const int64_t size[] = {0, 1, 63, 64, 65, 1023, 1025, 100000};
+    (void)state;
+    for (int k = 0; k < 8; k++) {
+        const int64_t n = size[k];
+        int64_t *values = malloc((size_t)(mps__scan_room(n) + 1) * sizeof *values), sum = 0;
+        assert_non_null(values);
+        for (int64_t i = 0; i < mps__scan_room(n); i++) values[i] = i % 77 - 20;
+        loops_watch(&device);
+        mps__scan(NULL, values, n);
+        loops_watch(NULL);
+        for (int64_t i = 0; i < n; i++) assert_true(values[i] == (sum += i % 77 - 20));
+        free(values);
+    }
+    assert_string_equal(device.difference, "");
 }
 
 /* ---- what the comparison is for ---- */
@@ -199,9 +221,13 @@ static void a_difference_is_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),  cmocka_unit_test(presets),
-        cmocka_unit_test(other_scenes),      cmocka_unit_test(all_models),
-        cmocka_unit_test(kernels_are_there), cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),
+        cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(presets),
+        cmocka_unit_test(other_scenes),
+        cmocka_unit_test(all_models),
+        cmocka_unit_test(kernels_are_there),
+        cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A body that carries the tank moves by the same bytes on any number of ranks: its load and its added mass are sums over all of them. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -45,12 +44,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     if (status == MPS_OK) status = set_body(sim, k->scene->dim);
     for (int n = 0; n < STEPS && status >= 0; n++) {
         status = scene_change(sim, k->scene, n);
@@ -104,9 +98,7 @@ int main(void)
 {
     struct CMUnitTest tests[CHOSEN];
     for (int c = 0; c < CHOSEN; c++) {
-        const scene *found = NULL;
-        for (int k = 0; k < SCENES; k++)
-            if (strcmp(scenes[k].name, chosen[c]) == 0) found = &scenes[k];
+        const scene *found = scene_named(chosen[c]);
         if (!found) return 1;
         tests[c] = (struct CMUnitTest){
             .name = chosen[c], .test_func = test_scene, .initial_state = (void *)(uintptr_t)found};

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. The environment variables MPS_RANKS_STEPS and MPS_RANKS_THREADS
  * ask for other numbers of steps, and of threads of each rank. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include "sim.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -26,12 +25,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
         sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
         status = scene_change(sim, k->scene, s);

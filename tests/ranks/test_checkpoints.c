@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checkpoints of any number of ranks are the same file, and go on with any other number as if nothing had been. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -27,12 +26,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     if (status == MPS_OK && k->from) status = mps_checkpoint_read(sim, k->from);
     for (int s = 0; s < k->steps && status >= 0; s++) status = mps_step(sim, 1, &info);
     if (status >= 0) record_note(sim, &info, k->last);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Frames of many ranks: pieces that together have the particles of one rank, each once; what happens where a rank cannot write its piece. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -60,12 +59,7 @@ static void run_rank(void *argument, int32_t rank)
     run *k = argument;
     mps_sim *sim = NULL;
     mps_frames *frames = NULL;
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     if (status == MPS_OK) status = mps_frames_open(sim, k->folder, "f", k->kinds, &frames);
     if (status == MPS_OK)
         write_frames(k, sim, rank, frames);
@@ -77,8 +71,7 @@ static void run_rank(void *argument, int32_t rank)
 
 static void take(run *k, int32_t ranks)
 {
-    for (int s = 0; s < SCENES; s++)
-        if (strcmp(scenes[s].name, "changes_2d") == 0) k->scene = &scenes[s];
+    k->scene = scene_named("changes_2d");
     if (!k->folder[0]) {
         strcpy(k->folder, "ranks_frames_XXXXXX");
         assert_non_null(mkdtemp(k->folder));

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Leases on many ranks: after each call ghosts have the values of their owners, in every field; what a rank writes at its own particles is what
  * the next step begins with on all. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include "sim.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -115,12 +114,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_step_info info;
     mps_energy e = {.struct_size = sizeof e};
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     if (status == MPS_OK) status = mps_field_add(sim, "mark", 1);
     for (int s = 0; s < STEPS && status >= 0; s++) {
         status = scene_change(sim, k->scene, s);
@@ -158,27 +152,19 @@ static run run_scene(const scene *s, int32_t ranks, int writers)
     return k;
 }
 
-static const scene *find(const char *name)
-{
-    for (int k = 0; k < SCENES; k++)
-        if (strcmp(scenes[k].name, name) == 0) return &scenes[k];
-    fail_msg("no scene is named %s", name);
-    return NULL;
-}
-
 static void ghosts_are_copies(void **state)
 {
     static const char *const names[] = {"dam_2d", "dam_3d", "roll_2d", "air_2d"};
     (void)state;
     for (int k = 0; k < 4; k++)
         for (int32_t ranks = 2; ranks <= MOST; ranks += 3)
-            free(run_scene(find(names[k]), ranks, NO_RANK).records);
+            free(run_scene(scene_named(names[k]), ranks, NO_RANK).records);
 }
 
 static void check_writers(int writers)
 {
     char text[TEXT];
-    const scene *s = find("dam_2d");
+    const scene *s = scene_named("dam_2d");
     record *alone = run_scene(s, 1, writers).records;
     for (int32_t ranks = 2; ranks <= MOST; ranks++) {
         record *many = run_scene(s, ranks, writers).records;

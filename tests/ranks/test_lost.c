@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particles behind a wall are lost once, where a cut passes through them too: those that are ghosts elsewhere do not count there. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include "sim.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -42,12 +41,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     for (int s = 0; s < STEPS && status >= 0; s++) {
         if (s == SPILL_STEP) status = spill(k, sim);
         if (status >= 0) status = mps_step(sim, 1e-5, &info);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Memory that runs out on one rank, at each allocation in turn: all ranks end, none waits, nothing leaks. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -148,10 +147,8 @@ int main(void)
     enum { COUNT = sizeof names / sizeof names[0] };
     struct CMUnitTest tests[COUNT];
     for (int k = 0; k < COUNT; k++)
-        for (int n = 0; n < SCENES; n++)
-            if (strcmp(scenes[n].name, names[k]) == 0)
-                tests[k] = (struct CMUnitTest){.name = names[k],
-                                               .test_func = each_allocation,
-                                               .initial_state = (void *)(uintptr_t)&scenes[n]};
+        tests[k] = (struct CMUnitTest){.name = names[k],
+                                       .test_func = each_allocation,
+                                       .initial_state = (void *)(uintptr_t)scene_named(names[k])};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

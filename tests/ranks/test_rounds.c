@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* How many messages a step takes: rounds and bytes against a table. Both are exact, as results and cuts are. When a change takes fewer, put
  * the new numbers here; when it takes more, find out why first. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include "sim.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -39,10 +38,7 @@ static void run_rank(void *argument, int32_t rank)
     run *k = argument;
     mps_sim *sim = NULL;
     int64_t rounds = 0, bytes = 0;
-    const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK) status = mps_sim_ranks_set(sim, &ops);
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     for (int s = 0; s < FIRST + STEPS && status >= 0; s++) {
         if (s == FIRST) {
             rounds = sim->world.ranks.rounds;
@@ -58,18 +54,10 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim_destroy(sim);
 }
 
-static const scene *find(const char *name)
-{
-    for (int k = 0; k < SCENES; k++)
-        if (strcmp(scenes[k].name, name) == 0) return &scenes[k];
-    fail_msg("no scene is named %s", name);
-    return NULL;
-}
-
 static void test_row(void **state)
 {
     const count *row = *state;
-    run k = {.scene = find(row->scene), .team = kit_engine_create(row->ranks, 0)};
+    run k = {.scene = scene_named(row->scene), .team = kit_engine_create(row->ranks, 0)};
     int64_t bytes = 0;
     kit_engine_run(k.team, run_rank, &k);
     kit_engine_destroy(k.team);

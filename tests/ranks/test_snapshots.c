@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Snapshots on any number of ranks: what goes on from one is what one rank does that never went another way. */
-#include "kit_engine.h"
-#include "scenes.h"
+#include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -72,12 +71,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_step_info info;
     mps_step_info_init(&info, sizeof info);
-    mps_status status = scene_create(k->scene, &sim);
-    if (status == MPS_OK && k->team) {
-        const mps_ranks_ops ops = kit_engine_ops(k->team, rank);
-        status = mps_sim_ranks_set(sim, &ops);
-    }
-    if (status == MPS_OK) status = scene_build(sim, k->scene);
+    mps_status status = scene_start(k->scene, k->team, rank, &sim);
     if (status == MPS_OK) status = go(sim, k, &info);
     mps_load_init(&k->load[rank], sizeof k->load[rank]);
     if (status >= 0) status = mps_load_get(sim, NULL, &k->load[rank]);

@@ -148,6 +148,7 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
     const int k = room_of(s, from);
     assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
+    if (s->downloads == s->loses_at) return 1;
     protect(s, k, PROT_READ);
     memcpy(to, from, bytes);
     protect(s, k, PROT_NONE);

@@ -14,7 +14,7 @@ typedef struct shadow {
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
     bool refuses;                         /* there is no room */
-    int64_t fails_at;                     /* launch that fails; 0: none */
+    int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
     struct {
         char *begin;
         size_t bytes;

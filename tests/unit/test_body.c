@@ -344,6 +344,30 @@ static void nothing_resists(void **state)
     mps_sim_destroy(sim);
 }
 
+/* Where the second angle is a right one, the first and the third are one. */
+static int upright(void *user, double t, mps_motion_state *s)
+{
+    (void)user, (void)t;
+    s->value[MPS_ROTATE_Z] = 0.5 * acos(-1.0);
+    return 0;
+}
+
+static void angles_are_one(void **state)
+{
+    mps_sim *sim = box(3, 0.25, NULL);
+    mps_body b = body_of(MPS_ROTATE_X, 10);
+    (void)state;
+    b.inertia[0] = b.inertia[4] = b.inertia[8] = 10;
+    ASSERT_OK(sim, mps_motion_callback_set(sim, upright, NULL));
+    ASSERT_OK(sim, mps_body_set(sim, &b));
+    go(sim, 1);
+    b.free |= MPS_BODY_FREE(MPS_ROTATE_Y);
+    ASSERT_OK(sim, mps_body_set(sim, &b));
+    ASSERT_REFUSED(sim, mps_step(sim, 1e-3, NULL), MPS_E_STATE,
+                   "'MPS_ROTATE_X' and 'MPS_ROTATE_Y' are one");
+    mps_sim_destroy(sim);
+}
+
 /* Models without an added mass. */
 static void models(void **state)
 {
@@ -404,13 +428,20 @@ static void arguments(void **state)
     assert_int_equal(mps_motion_state_init(&now, sizeof now), MPS_OK);
     ASSERT_OK(sim, mps_body_set(sim, &good));
     ASSERT_REFUSED(sim, mps_body_get(sim, NULL), MPS_E_ARG, "NULL");
+    mps_body_report r = report_of(sim);
+    r.struct_size = 3;
+    ASSERT_REFUSED(sim, mps_body_get(sim, &r), MPS_E_ARG, "mps_body_report_init");
+    assert_int_equal(mps_body_report_init(NULL, sizeof r), MPS_E_ARG);
     mps_sim_destroy(sim);
     sim = box(3, 0.25, NULL);
     WITH(inertia[1], 1, "symmetric");
     b = good;
     b.inertia[0] = b.inertia[4] = 1;
     b.inertia[1] = b.inertia[3] = 2;
-    refused(sim, b, "negative moment");
+    refused(sim, b, "negative moment: [0] is 1, [4] is 1, [1] is 2");
+    /* about each pair of axes it is allowed, about (1, 1, 1) it is -0.8 */
+    for (int k = 0; k < 9; k++) b.inertia[k] = k % 4 == 0 ? 1 : -0.9;
+    refused(sim, b, "about some axis");
     mps_sim_destroy(sim);
 }
 
@@ -421,6 +452,6 @@ int main(void)
         cmocka_unit_test(pendulum),  cmocka_unit_test(top),
         cmocka_unit_test(goes_on),   cmocka_unit_test(fails_and_ends),
         cmocka_unit_test(arguments), cmocka_unit_test(nothing_resists),
-        cmocka_unit_test(models)};
+        cmocka_unit_test(models),    cmocka_unit_test(angles_are_one)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

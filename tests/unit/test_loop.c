@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops of the core: each row once, in both dimensions, sums and maxima the same bytes on any number of threads. */
+/* Loops of the core: each row once, in both dimensions, sums and maxima the same bytes on any number of threads; sums up to each row. */
 #include "loop.h"
+#include "scan.h"
 #include "tank_fixture.h"
+#include <stdlib.h>
 
 enum { ROWS = 5003 };
 
@@ -86,9 +88,34 @@ static void sums_and_maxima(void **state)
     }
 }
 
+/* Sizes about a block, a block of blocks; the room behind them, and no number more, is written. */
+static void sums_up_to_each(void **state)
+{
+    static const int64_t size[] = {0, 1, 2, 63, 127, 128, 129, 1023, 1025, 16384, 16385, 100000};
+    static fixture k;
+    (void)state;
+    for (size_t m = 0; m < 2 * (sizeof size / sizeof size[0]); m++) {
+        const int64_t n = size[m / 2], room = mps__scan_room(n);
+        int64_t *values = malloc((size_t)(room + 1) * sizeof *values), sum = 0;
+        assert_non_null(values);
+        assert_true(room >= n && room <= n + n / 64 + 1);
+        begin(&k, m % 2 ? 4 : 1);
+        for (int64_t i = 0; i <= room; i++) values[i] = i < n ? i * 7919 % 1009 - 300 : INT64_MIN;
+        mps__scan(&k.pool.parallel, values, n);
+        for (int64_t i = 0; i < n; i++) {
+            sum += i * 7919 % 1009 - 300;
+            assert_true(values[i] == sum);
+        }
+        assert_true(values[room] == INT64_MIN);
+        mps__pool_free(&k.pool);
+        free(values);
+    }
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(each_row_once),
+    const struct CMUnitTest tests[] = {cmocka_unit_test(sums_up_to_each),
+                                       cmocka_unit_test(each_row_once),
                                        cmocka_unit_test(sums_and_maxima)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

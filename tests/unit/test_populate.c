@@ -99,6 +99,22 @@ static void energy_of_what_came(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A tank whose solids a model moves is not a rigid body. */
+static void no_body_with_moved_solids(void **state)
+{
+    (void)state;
+    mps_sim *sim = tank_of_water(&lifted);
+    mps_body b;
+    assert_int_equal(mps_body_init(&b, sizeof b), MPS_OK);
+    b.free = MPS_BODY_FREE(MPS_MOVE_X);
+    b.mass = 10;
+    ASSERT_OK(sim, mps_body_set(sim, &b));
+    ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_STATE, "a model moves solids in it");
+    ASSERT_OK(sim, mps_body_set(sim, NULL));
+    take_steps(sim, 2);
+    mps_sim_destroy(sim);
+}
+
 /* Dummies are linked to their walls once, whatever comes and however solids move. */
 static void walls_are_linked_once(void **state)
 {
@@ -177,6 +193,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(energy_of_what_came),
         cmocka_unit_test(walls_are_linked_once),
+        cmocka_unit_test(no_body_with_moved_solids),
         cmocka_unit_test(work_of_a_moved_body),
         cmocka_unit_test(nothing_to_remove_keeps_the_lists),
         cmocka_unit_test(channels_are_not_written_before_the_step),

@@ -66,7 +66,7 @@ static mps_status ready(mps_sim *sim)
 
 mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
 {
-    MPS__CHANGES(sim);
+    MPS__STEPS(sim);
     MPS__CHECK(&sim->context, dt_max > 0 && isfinite(dt_max),
                "dt_max is %g s: must be > 0 and finite", dt_max);
     mps_step_info probe = info_default;
@@ -85,7 +85,7 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
 
 mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *user)
 {
-    MPS__CHANGES(sim);
+    MPS__STEPS(sim);
     mps__world *w = &sim->world;
     MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->state.t,
                "t_end is %g s: must be finite and not before the present time %g s", t_end,

@@ -60,6 +60,26 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
+/* The next loop has rounds that do not depend on each other: arrays in it are the same or apart. */
+#if defined(__clang__)
+#define MPS__INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
+#elif defined(__GNUC__)
+#define MPS__INDEPENDENT _Pragma("GCC ivdep")
+#else
+#define MPS__INDEPENDENT
+#endif
+
+/* MPS__LOOP() of rows that do next to nothing and do not look at the dimension: a vector loop on the host. */
+#define MPS__LOOP_CHEAP(name, row, type)                                                  \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        (void)dim_;                                                                       \
+        MPS__INDEPENDENT                                                                  \
+        for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);              \
+    }                                                                                     \
+    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
+
 /* Define the mps__values `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
  * which sets values[0..sums-1] to the terms of the row, each 0 before, and raises the maxima behind them. */
@@ -82,6 +102,18 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         }                                                                                 \
         mps__terms_end(&terms_);                                                          \
         memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
+    }                                                                                     \
+    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
+
+/* MPS__VALUES() for which the host has a function of a range, with the same terms:
+ *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums, double *maxima); */
+#define MPS__VALUES_BY(name, row, range, type, sums, maxima)                              \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
+                           mps_exact *sum_, double *maximum_)                             \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        (void)dim_, (void)row;                                                            \
+        range(&given_, begin, end, sum_, maximum_);                                       \
     }                                                                                     \
     static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
 

@@ -54,12 +54,18 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
                      call);
 }
 
-/* Begin a public function that changes a simulation, or one that reads more than single values of it. */
-#define MPS__CHANGES(sim)                                        \
+/* Begin a public function that takes steps, */
+#define MPS__STEPS(sim)                                          \
     do {                                                         \
         if (!(sim)) return MPS_E_ARG;                            \
         MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
         MPS__TRY(mps__sim_divided((sim), __func__));             \
+    } while (0)
+/* one that may change any field of the particles, or one that reads more than single values of a simulation. */
+#define MPS__CHANGES(sim)                 \
+    do {                                  \
+        MPS__STEPS(sim);                  \
+        (sim)->world.particles.changes++; \
     } while (0)
 /* Refuse geometry where ranks have divided the particles: it looks at all that is there. */
 static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)

@@ -66,6 +66,13 @@ static void copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
     twin->old[place] = false;
 }
 
+/* Lists of the host are not outdated: what they hold is an older parting of the same candidates, from which rows can be found again where the
+ * device fails. */
+static bool is_list(const mps__twins *t, const mps__twin *twin)
+{
+    return twin >= t->block && twin < t->block + MPS__LASTING;
+}
+
 /* The values at a place have changed. */
 static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place)
 {
@@ -73,20 +80,27 @@ static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place)
     const bool was_old = twin->old[other];
     twin->old[place] = false;
     twin->old[other] = true;
-    if (!was_old) outdate(t, twin, other == MPS__ON_HOST ? host : twin->data);
+    if (was_old || (other == MPS__ON_HOST && is_list(t, twin))) return;
+    outdate(t, twin, other == MPS__ON_HOST ? host : twin->data);
 }
 
 /* ---- a device ---- */
 
 void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel)
 {
-    *t = (mps__twins){.channels = c, .particles = s, .parallel = parallel, .told = -1};
+    *t = (mps__twins){.channels = c,
+                      .particles = s,
+                      .parallel = parallel,
+                      .told = -1,
+                      .changes = -1,
+                      .listed = -1};
     mps__device_init(&t->device, c->context);
     t->last.struct_size = sizeof t->last;
 }
 
 void mps__twins_free(mps__twins *t)
 {
+    if (!t->channels) return; /* no memory before anything had begun */
     for (int32_t k = 0; k < ALL; k++) give_back(t, &t->list[k]);
     for (int32_t k = 0; k < MPS__BLOCKS; k++) give_back(t, &t->block[k]);
     for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
@@ -144,10 +158,14 @@ static mps_status open_fields(mps__twins *t)
         const mps__field *f = &t->particles->field[k];
         mps__twin *twin = &t->list[FIELDS + k];
         const size_t bytes = (size_t)t->particles->n * (size_t)f->components * f->size;
-        MPS__TRY(fit(t, twin, bytes, f->size));
+        if (t->changes != t->particles->changes || twin->bytes != bytes) {
+            MPS__TRY(fit(t, twin, bytes, f->size));
+            outdate(t, twin, twin->data);
+        }
         twin->host = *f->data;
-        outdate(t, twin, twin->data);
     }
+    for (int32_t k = t->particles->fields; k < MPS__FIELDS_MAX; k++) t->list[FIELDS + k].bytes = 0;
+    t->changes = t->particles->changes;
     return MPS_OK;
 }
 
@@ -160,13 +178,32 @@ static mps_status open_constants(mps__twins *t)
     return MPS_OK;
 }
 
+void mps__twins_begin(mps__twins *t)
+{
+    t->step = mps__device_there(&t->device);
+    if (t->step) mps__device_begin(&t->device);
+}
+
+mps_status mps__twins_enter(mps__twins *t)
+{
+    MPS__TRY(open_fields(t));
+    t->open = true;
+    mps__twins_go(t, MPS__ON_DEVICE);
+    return MPS_OK;
+}
+
+mps_status mps__twins_leave(mps__twins *t)
+{
+    mps__twins_go(t, MPS__ON_HOST);
+    t->open = false;
+    return mps__device_status(&t->device);
+}
+
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
-    if (!mps__device_there(&t->device)) return MPS_OK;
-    mps__device_begin(&t->device);
-    for (int32_t k = 0; k < ALL; k++) t->list[k].bytes = 0;
-    for (int32_t k = 0; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
+    if (!t->step) return MPS_OK;
+    for (int32_t k = 0; k < FIELDS; k++) t->list[k].bytes = 0;
     MPS__TRY(open_constants(t));
     MPS__TRY(open_fields(t));
     for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT]; k++)
@@ -193,13 +230,19 @@ mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t co
     return MPS_OK;
 }
 
-void mps__twins_close(mps__twins *t)
+mps_status mps__twins_close(mps__twins *t)
 {
-    if (!t->open) return;
+    if (!t->step) return MPS_OK;
     mps__twins_go(t, MPS__ON_HOST);
     mps__twins_fields_ready(t);
+    mps__twins_rows_ready(t);
+    for (int32_t k = MPS__LASTING; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
+    if (t->device.failed) t->changes = t->listed = -1;
     t->last = t->device.info;
-    t->open = false;
+    t->open = t->step = false;
+    const mps_status status = mps__device_status(&t->device);
+    t->device.failed = false; /* the host goes on alone */
+    return status;
 }
 
 /* ---- where loops run ---- */
@@ -250,6 +293,16 @@ void *mps__twins_given(mps__twins *t, void *array, bool all)
     if (!all) copy(t, twin, twin->host, t->place);
     change(t, twin, twin->host, t->place);
     return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
+}
+
+mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes)
+{
+    const mps__twin *twin = t->open ? find(t, array) : NULL;
+    if (twin && twin->old[MPS__ON_HOST])
+        mps__device_download(&t->device, out, address(twin, array), bytes);
+    else
+        memcpy(out, array, bytes);
+    return mps__device_status(&t->device);
 }
 
 static void see_pairs(mps__twins *t, mps_stencil *s)
@@ -331,10 +384,20 @@ void mps__twins_fields_ready(mps__twins *t)
         copy(t, &t->list[FIELDS + k], *t->particles->field[k].data, MPS__ON_HOST);
 }
 
+static void blocks_ready(mps__twins *t, int32_t end)
+{
+    for (int32_t k = 0; t->step && k < end; k++)
+        copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
+}
+
 void mps__twins_lists_ready(mps__twins *t)
 {
-    for (int32_t k = 0; t->open && k < MPS__BLOCKS; k++)
-        copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
+    blocks_ready(t, MPS__BLOCKS);
+}
+
+void mps__twins_rows_ready(mps__twins *t)
+{
+    blocks_ready(t, MPS__LASTING);
 }
 
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)

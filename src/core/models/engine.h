@@ -15,11 +15,13 @@ enum {
     MPS__ROWS_BEGIN,
     MPS__ROWS_MIDDLE,
     MPS__ROWS_END,
+    MPS__ROWS_COUNT,
     MPS__ROWS_COLUMNS,
-    MPS__NEAR_BEGIN,
+    MPS__IDLE_ROWS,
+    MPS__LASTING, /* those before it stay until the next search; the others live for a step */
+    MPS__NEAR_BEGIN = MPS__LASTING,
     MPS__NEAR_COLUMNS,
     MPS__NEAR_WEIGHTS,
-    MPS__IDLE_ROWS,
     MPS__TURNED_AREAS,
     MPS__BLOCKS
 };
@@ -36,9 +38,12 @@ typedef struct mps__twin {
 
 typedef struct mps__twins {
     mps__device device;
-    mps_device_info last;                  /* what the device did in the last step */
-    bool open;                             /* a step is in progress */
-    int32_t place;                         /* of loops now */
+    mps_device_info last; /* what the device did in the last step */
+    bool step;            /* a step has begun, */
+    bool open;            /* and loops may run on the device */
+    int64_t listed;       /* the search whose lists have twins; -1: none */
+    int64_t changes; /* those of the particles when a step ended; fields have their twins since */
+    int32_t place;   /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
     mps__channels *channels;
     mps__particles *particles;
@@ -55,13 +60,20 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
 mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops);
 /* Everything is on the host again, and nothing is held. */
 void mps__twins_free(mps__twins *t);
-/* A step begins: room for all fields and for what its calls use, all values are on the host. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* A step begins, and its counts. */
+void mps__twins_begin(mps__twins *t);
+/* Loops run on the device until mps__twins_leave(), before there are calls: they see fields and the lists of the last search. MPS_E_NOMEM */
+mps_status mps__twins_enter(mps__twins *t);
+/* MPS_E_PLUGIN: a loop has failed. */
+mps_status mps__twins_leave(mps__twins *t);
+/* Its calls begin: room for all fields and for what its calls use. All values are on the host, those of fields that nothing has changed since the
+ * step before on the device too. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
 /* The array of a block in this step; `values`: it has some, on the host. Without a step on a device nothing is done. */
 mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,
                             bool values);
-/* It is over: all fields come to the host. */
-void mps__twins_close(mps__twins *t);
+/* It is over, wherever it has ended: all fields and lists come to the host. MPS_E_PLUGIN: they did not. */
+mps_status mps__twins_close(mps__twins *t);
 
 /* ---- where loops run ---- */
 
@@ -71,6 +83,8 @@ int32_t mps__twins_go(mps__twins *t, int32_t place);
 void *mps__twins_seen(mps__twins *t, const void *array);
 /* The same for loops that write it. `all`: they write all that is read afterwards. */
 void *mps__twins_given(mps__twins *t, void *array, bool all);
+/* Copy `bytes` of the newest values of such an array, from where they are. MPS_E_PLUGIN */
+mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes);
 /* Arrays of a view, likewise; with those of constants where loops see it. */
 void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
@@ -85,6 +99,8 @@ void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place);
 /* The same of all fields on the host, for what looks at the particles outside of calls; of the lists that calls wrote. */
 void mps__twins_fields_ready(mps__twins *t);
 void mps__twins_lists_ready(mps__twins *t);
+/* The lists of the search alone, without the near rows that are made from them. */
+void mps__twins_rows_ready(mps__twins *t);
 /* The values at a place have changed. */
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place);
 /* The array at a place. */

@@ -266,6 +266,7 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
     if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
+    if (place == MPS__ON_HOST) mps__twins_rows_ready(&h->twins);
     if (place == MPS__ON_HOST && call->model) mps__twins_lists_ready(&h->twins);
     for (int32_t u = 0; u < call->use_count; u++)
         if (!(call->uses[u].access & MPS__USE_BEGIN))
@@ -400,6 +401,11 @@ static mps_status run_checked(mps__host *h, mps_stage *s, mps_view *v, mps__call
 #define run_checked run_call
 #endif
 
+static bool is_idle(const mps__host *h, const mps__call *call)
+{
+    return call->pass && call->pass->idle && call->pass->idle(h->step);
+}
+
 mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
 {
     mps_status status = MPS_OK;
@@ -411,11 +417,13 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
     for (int32_t k = h->plan.begin[hook]; k < h->plan.begin[hook + 1] && status == MPS_OK; k++) {
         mps__call *call = &h->plan.call[k];
         const double limit = s->dt_limit;
+        if (is_idle(h, call)) continue;
         if (h->before_call) h->before_call(h->step, call);
         status = share_before(h, call);
         h->twins.device.info.host_calls += h->twins.open && place_of(h, call) == MPS__ON_HOST;
         begin_channels(h, call, place_of(h, call));
         make_ready(h, call, place_of(h, call));
+        if (status == MPS_OK) status = mps__device_status(&h->twins.device);
         if (status == MPS_OK) status = run_checked(h, s, v, call);
         if (hook == MPS_LIMIT && s->dt_limit < limit) h->limiter = k;
         call->cost.calls++;
@@ -438,7 +446,8 @@ void mps__host_tell_places(mps__host *h)
     h->twins.told = h->plan.changes;
     for (int32_t k = 0; k < h->plan.begin[MPS_HOOK_COUNT]; k++) {
         const mps__call *call = &h->plan.call[k];
-        if (place_of(h, call) != MPS__ON_HOST || used + MPS__NAME_SIZE + 2 > sizeof text) continue;
+        if (place_of(h, call) != MPS__ON_HOST || is_idle(h, call)) continue;
+        if (used + MPS__NAME_SIZE + 2 > sizeof text) continue;
         used += (size_t)snprintf(text + used, sizeof text - used, "%s%s", used > 0 ? ", " : "",
                                  call->name);
     }

@@ -27,6 +27,8 @@ typedef struct mps__pass {
     int32_t use_count;
     const mps_use *uses;
     mps_status (*run)(mps_stage *s);
+    bool (*idle)(
+        const void *step); /* nothing to do, on no rank: not run, and no use is asked for */
 } mps__pass;
 
 /* What calls have cost since the plan was made, or since costs were cleared. */

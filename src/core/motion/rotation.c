@@ -5,13 +5,6 @@
 #include "base.h"
 #include <math.h>
 
-void mps__cross(const double a[3], const double b[3], double out[3])
-{
-    out[0] = a[1] * b[2] - a[2] * b[1];
-    out[1] = a[2] * b[0] - a[0] * b[2];
-    out[2] = a[0] * b[1] - a[1] * b[0];
-}
-
 /* Turn the two other axes about axis k, from the one that follows it to the next. */
 static void turn_about(int32_t k, double angle, mps__triad *axes)
 {

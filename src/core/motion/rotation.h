@@ -27,6 +27,11 @@ void mps__rotation_apply(const mps__angles *a, mps__triad *axes, double omega[3]
 bool mps__rotation_angles(const mps__triad *rest, const mps__triad *axes, const double omega[3],
                           const double alpha[3], mps__angles *a);
 
-void mps__cross(const double a[3], const double b[3], double out[3]);
+static inline void mps__cross(const double a[3], const double b[3], double out[3])
+{
+    out[0] = a[1] * b[2] - a[2] * b[1];
+    out[1] = a[2] * b[0] - a[0] * b[2];
+    out[2] = a[0] * b[1] - a[1] * b[0];
+}
 
 #endif

@@ -3,6 +3,7 @@
 #include "neighbours_rows.h"
 #include "ghosts.h"
 #include "loop.h"
+#include "scan.h"
 #include <math.h>
 #include <stdatomic.h>
 #include <string.h>
@@ -53,7 +54,7 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
     } a[] = {{(void **)&l->begin, wanted, sizeof *l->begin, NULL},
              {(void **)&l->count, wanted, sizeof *l->count, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
-             {(void **)&l->near_begin, wanted + 1, sizeof *l->near_begin, NULL},
+             {(void **)&l->near_begin, mps__scan_room(wanted + 1), sizeof *l->near_begin, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
              {(void **)&l->idle, wanted, sizeof *l->idle, NULL},
              {(void **)&l->rim, wanted, sizeof *l->rim, NULL}};
@@ -415,6 +416,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     const bool sorted = l->sorted;
     if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, NULL, re_far));
     l->sorted = l->valid = false;
+    l->searches++;
     MPS__TRY(reserve(l, n));
     if (re_near < re_far)
         MPS__TRY(

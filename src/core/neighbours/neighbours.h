@@ -25,9 +25,10 @@ struct mps_neighbours {
     int64_t *begin, *middle, *end; /* [n]; the last are the same where the radii are */
     int64_t *far_end;              /* [n] where they are not */
     int32_t *count;                /* [n] candidates of each row */
-    int32_t *col;  /* [pairs] within re_far + skin at the last search; rows in any order */
-    int64_t pairs; /* entries of it at the last search */
-    /* [n+1] near rows once more, without gaps: what most loops of a step run along */
+    int32_t *col;     /* [pairs] within re_far + skin at the last search; rows in any order */
+    int64_t pairs;    /* entries of it at the last search */
+    int64_t searches; /* so many were begun */
+    /* [n+1] near rows once more, without gaps: what most loops of a step run along; room of its scan */
     int64_t *near_begin;
     int32_t *near_col; /* [near_begin[n]] */
     double *w_r2;      /* [near_begin[n]] room for a weight beside each entry of near_col */
@@ -72,10 +73,23 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
                                   double re_far);
 /* Exact rows at other positions from the candidates, without what screens hide. */
 void mps__neighbours_rows(mps_neighbours *l, const double *x);
+/* Arrays of a list, and positions, where loops run. */
+typedef struct mps__row_arrays {
+    const double *x;
+    const int64_t *begin;
+    const int32_t *count;
+    int64_t *middle, *end;
+    int32_t *col;
+} mps__row_arrays;
+/* The same with arrays that are elsewhere. Only where no row is too long for the stack, and without screens. */
+void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__row_arrays *there);
 /* Take what screens hide out of rows that are exact. */
 void mps__neighbours_hide(mps_neighbours *l);
-/* Set l->near_begin and make room for what stands in its rows. */
-mps_status mps__neighbours_near(mps_neighbours *l);
+/* Set near_begin from the rows; the arrays are those of the list where loops run. */
+void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,
+                          int64_t *near_begin);
+/* Room for what stands in the near rows: near_begin[n] pairs. */
+mps_status mps__neighbours_near_fit(mps_neighbours *l, int64_t pairs);
 /* Bits of a cell number along one axis in a key. */
 int mps__cell_bits(int32_t dim);
 /* Pairs of one radius; the list is not empty. */

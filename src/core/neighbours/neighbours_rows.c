@@ -2,6 +2,7 @@
 /* Exact rows at positions that have changed since the search, from its candidates, and what screens hide. */
 #include "neighbours_rows.h"
 #include "loop.h"
+#include "scan.h"
 #include <math.h>
 
 /* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
@@ -85,12 +86,47 @@ MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
     l->end[i] = l->middle[i] + parted.far;
 }
 
+#ifdef MPS_DEVICE
+/* A device has no room for buffers: each candidate goes up the row to its place. Most stay where they are. */
+
+/* 0: near, 1: within reach, 2: out of it. */
+MPS_ROW int ring_of(const int dim, const exact *l, int64_t i, int32_t j)
+{
+    const mps__rings *g = &l->rings;
+    const double r2 = mps__square_between(l->x + i * dim, l->x + (int64_t)j * dim, dim);
+    return r2 >= g->least && r2 < g->far2 ? r2 >= g->near2 : 2;
+}
+
+MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
+{
+    int32_t *const row = l->col + l->begin[i];
+    int64_t nears = 0, fars = 0;
+    if (l->count[i] > MPS__ROW) return;
+    for (int64_t k = 0; k < l->count[i]; k++) {
+        const int32_t j = row[k];
+        const int ring = ring_of(dim, l, i, j);
+        int64_t to = k;
+        for (; to > 0; to--) {
+            const int before = ring_of(dim, l, i, row[to - 1]);
+            if (before < ring || (before == ring && (ring == 2 || row[to - 1] < j))) break;
+            row[to] = row[to - 1];
+        }
+        row[to] = j;
+        nears += ring == 0;
+        fars += ring == 1;
+    }
+    if (l->count[i] == 0) return;
+    l->middle[i] = l->begin[i] + nears;
+    l->end[i] = l->middle[i] + fars;
+}
+#else
 MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
 {
     double r2[MPS__ROW];
     int32_t far[MPS__ROW], out[MPS__ROW];
     if (l->count[i] > 0 && l->count[i] <= MPS__ROW) part_again(dim, l, i, &(room){r2, far, out});
 }
+#endif
 MPS__LOOP(exact_rows, exact_row, exact)
 
 /* Rows too long for the stack, of one of MPS__PARTS parts of the particles. */
@@ -179,13 +215,43 @@ void mps__neighbours_rows(mps_neighbours *l, const double *x)
     mps__neighbours_hide(l);
 }
 
-mps_status mps__neighbours_near(mps_neighbours *l)
+void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__row_arrays *there)
 {
-    l->near_begin[0] = 0;
-    for (int64_t i = 0; i < l->n; i++)
-        l->near_begin[i + 1] = l->near_begin[i] + l->middle[i] - l->begin[i];
-    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, l->near_begin[l->n],
+    exact rows = exact_of(l);
+    l->x = x;
+    rows.x = there->x;
+    rows.begin = there->begin;
+    rows.count = there->count;
+    rows.middle = there->middle;
+    rows.end = there->end;
+    rows.col = there->col;
+    mps__loop_run(l->parallel, &exact_rows, l->dim, l->n, &rows);
+}
+
+/* Near pairs of a row, one place on: a sum over these up to a row is the begin of the row. */
+typedef struct nears {
+    const int64_t *begin, *middle;
+    int64_t *near_begin;
+} nears;
+
+MPS_ROW void near_row(const int dim, const nears *f, int64_t i)
+{
+    (void)dim;
+    f->near_begin[i] = i > 0 ? f->middle[i - 1] - f->begin[i - 1] : 0;
+}
+MPS__LOOP(near_rows, near_row, nears)
+
+void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,
+                          int64_t *near_begin)
+{
+    mps__loop_run_cheap(l->parallel, &near_rows, MPS__ANY_DIM, l->n + 1,
+                        &(nears){begin, middle, near_begin});
+    mps__scan(l->parallel, near_begin, l->n + 1);
+}
+
+mps_status mps__neighbours_near_fit(mps_neighbours *l, int64_t pairs)
+{
+    MPS__TRY(mps__neighbours_fit(l, (void **)&l->near_col, &l->near_capacity, pairs,
                                  sizeof *l->near_col));
-    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, l->near_begin[l->n],
-                               sizeof *l->w_r2);
+    return mps__neighbours_fit(l, (void **)&l->w_r2, &l->weight_capacity, pairs, sizeof *l->w_r2);
 }

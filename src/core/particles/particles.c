@@ -34,6 +34,7 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
     *f->data = mps__alloc(s->context, s->capacity * components, size);
     if (!*f->data) return MPS_E_NOMEM;
     s->fields++;
+    s->changes++;
     keep_last(s);
     return MPS_OK;
 }
@@ -141,6 +142,7 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     swap_arrays(s, capacity, array);
     s->n = n;
     s->generation++;
+    s->changes++;
     s->solids++;
     return MPS_OK;
 }
@@ -159,12 +161,14 @@ void mps__particles_field_begin(mps__particles *s, const char *name, double valu
     mps__field *f = mps__particles_field(s, name);
     if (!f) return;
     f->begin = value;
+    s->changes++;
     begin_field(f, 0, s->n);
 }
 
 void mps__particles_field_drop(mps__particles *s)
 {
     mps__field *f = &s->field[--s->fields];
+    s->changes++;
     mps__free(s->context, *f->data);
     mps__free(s->context, f->kept);
     *f->data = NULL;
@@ -182,6 +186,7 @@ int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind)
     }
     s->n += count;
     s->generation++;
+    s->changes++;
     s->solids += kind != MPS_FLUID;
     return first;
 }
@@ -271,6 +276,7 @@ mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_
     const int64_t solids = count != s->n ? count_solids(s) : 0;
     char *scratch = room_to_move(s, s->n);
     if (!scratch) return MPS_E_NOMEM;
+    s->changes++;
     for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
     for (int64_t i = 0; i < s->n; i++) place[i] = -1;

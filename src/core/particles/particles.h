@@ -53,6 +53,7 @@ typedef struct mps__particles {
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
     int64_t generation;         /* grows when particles come or go */
     int64_t solids;             /* grows when solids come or go */
+    int64_t changes;            /* grows when fields change outside of the calls of a step */
     bool written;               /* the user wrote a field since ghosts got values of all fields */
     mps__scratch own, *scratch; /* to move particles with: its own, or one shared with others */
 } mps__particles;

@@ -38,6 +38,7 @@ typedef struct assembly {
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *row_shift, *row_gas, *row_law; /* the last two NULL: all are linear */
+    double *moments;                                        /* NULL: not wanted */
 } assembly;
 
 /* Full flux of a linear pressure through the row below a flat surface, over that of the pairs the surface leaves. */
@@ -199,6 +200,7 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
     const double gas = a->gain * a->gas[i];
     float *val = a->val + a->row[r];
     double coupling = 0, shift = a->gain * a->shift[i] + gas, rhs = a->gain * a->source[i];
+    double moment[3] = {0};
     int64_t count = 0;
     int64_t last = -1;
     bool sorted = true;
@@ -211,6 +213,7 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
                                     rho); /* the same from both sides, and in the diagonal */
         const double kij = (double)entry;
         rhs -= kij * (rho * mps_flux_body(flux, dim, i, q.j, q.d) - mps_flux_jump(flux, i, q.j));
+        for (int d = 0; d < dim && a->moments; d++) moment[d] += kij * rho * q.d[d];
         const int32_t column = a->unknown[q.j];
         if (column < 0) {
             shift += kij;
@@ -231,6 +234,7 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
     if (!sorted) sort_row(a->particle, col, val, count);
     a->rhs[r] = rhs;
     a->row_shift[r] = shift;
+    for (int d = 0; d < dim && a->moments; d++) a->moments[r * dim + d] = moment[d];
     if (a->row_law) {
         a->row_gas[r] = gas;
         a->row_law[r] = gas > 0 ? a->law[i] : 0;
@@ -278,6 +282,7 @@ static void see_rows(assembly *a, const mps__ppe *e)
     a->row_shift = e->shift;
     a->row_gas = e->gas;
     a->row_law = e->law;
+    a->moments = e->moments;
 }
 
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
@@ -289,37 +294,6 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
     see_rows(&a, e);
     mps__loop_run(a.pairs.parallel, &fill_rows, s->dim, e->n, &a);
     return MPS_OK;
-}
-
-/* ---- accelerations of the tank ---- */
-
-typedef struct moments {
-    const assembly *rows;
-    double *out; /* [n*dim] */
-} moments;
-
-MPS_ROW void moment_row(const int dim, const moments *m, int64_t r)
-{
-    const assembly *a = m->rows;
-    const int64_t i = a->particle[r];
-    double *out = m->out + r * dim;
-    for (int d = 0; d < dim; d++) out[d] = 0;
-    for (int64_t k = a->pairs.begin[i]; k < a->pairs.end[i]; k++) {
-        const double factor = pair_factor(a, i, a->pairs.col[k]);
-        if (factor == 0) continue;
-        const mps_pair q = mps_stencil_pair_dim(dim, &a->pairs, i, k);
-        const double rho = mps_flux_density(&a->flux, i, q.j);
-        const double kij = (double)(float)(a->c * factor * q.w / rho);
-        for (int d = 0; d < dim; d++) out[d] += kij * rho * q.d[d];
-    }
-}
-MPS__LOOP(moment_rows, moment_row, moments)
-
-void mps__ppe_moments(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *out)
-{
-    assembly a = assembly_of(e, s, t);
-    see_rows(&a, e);
-    mps__loop_run(a.pairs.parallel, &moment_rows, s->dim, e->n, &(moments){&a, out});
 }
 
 /* ---- what rows are not made of ---- */

@@ -47,6 +47,10 @@ typedef struct mps__ppe {
     double *x;          /* [columns*dim] */
     double *p;          /* [columns] */
     double *gas, *law;  /* NULL: all rows are linear */
+    /* [n*dim], room that mps__ppe_fill() is given for S_i = sum_j k_ij rho_ij r_ij of each row; NULL: it is not wanted. Where the equation has
+     * the body term, an acceleration a of the tank adds a.S_i to the right side, and an angular acceleration o about a point c adds
+     * o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */
+    double *moments;
     int32_t *component; /* scratch unless there is one without a level: problem.component */
     bool level_free;    /* the largest component has no level */
     int32_t *queue;     /* [n] scratch */
@@ -70,9 +74,6 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* What mps__ppe_note() says of ranks. ppe_ranks.c */
 mps_status mps__ppe_ranks_set(mps__ppe *e);
-/* S_i = sum_j k_ij rho_ij r_ij of each row, [n*dim], of an equation with the body term: an acceleration a of the tank adds a.S_i to its right
- * side, and an angular acceleration o about a point c adds o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */
-void mps__ppe_moments(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *out);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p);
 

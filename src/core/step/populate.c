@@ -75,6 +75,7 @@ mps_status mps__world_populate(mps__world *w)
     w->lists.first_new = w->particles.next_id;
     if (begin[MPS_POPULATE] == begin[MPS_POPULATE + 1]) return MPS_OK;
     open_stage(w, &s, &v);
+    w->particles.changes++; /* verbs may write fields */
     w->host.entries = 0;
     w->host.leaving = false;
     MPS__TRY(mps__host_run(&w->host, &s, &v, MPS_POPULATE));

@@ -71,6 +71,7 @@ static void start(mps__world *w, mps__budget *budget)
     mps__particles *s = &w->particles;
     if (!w->state.start_pending) return;
     w->state.start_pending = 0;
+    s->changes++;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
@@ -104,8 +105,8 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
         MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
     MPS__TRY(mps__world_lists_twins(w));
-    mps__host_tell_places(&w->host);
     mps__step_open(q);
+    mps__host_tell_places(&w->host);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));
     mps__host_book(&w->host, MPS__OPEN);
@@ -149,8 +150,10 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__plan_note(&w->host.plan, &w->models);
     /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__step_book_between(w));
+    mps__twins_begin(&w->host.twins);
     mps_status status = prepare(w);
     if (status < 0) {
+        mps__twins_close(&w->host.twins);
         mps__world_depopulate(w);
         return status;
     }
@@ -159,13 +162,11 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     double planned = 0;
     status = mps__undo_keep(w);
     mps__host_book(&w->host, MPS__UNDO);
-    if (status >= 0) {
-        status = try_step(&q, dt_max, &planned);
-        /* wherever the step has ended */
-        if (q.before) mps__twins_ready(&w->host.twins, MPS__POSITION_BEFORE, MPS__ON_HOST);
-        mps__twins_close(&w->host.twins);
-        if (status < 0) mps__undo_restore(w, q.before);
-    }
+    const bool kept = status >= 0;
+    if (kept) status = try_step(&q, dt_max, &planned);
+    const mps_status closed = mps__twins_close(&w->host.twins);
+    if (closed < 0) status = closed; /* whatever came of it */
+    if (kept && status < 0) mps__undo_restore(w, q.before);
     if (status < 0) {
         mps__world_depopulate(w);
         w->state.start_pending = start_pending;

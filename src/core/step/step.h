@@ -31,6 +31,11 @@ double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt);
 /* Momentum of the liquid, its moment about a place, mass, and mass times arm. */
 enum { MPS__MOMENTUM = 10 };
 
+/* Columns of the added mass that a step finds: which of the degrees of freedom of mps__step_freedom(), in ascending order. */
+typedef struct mps__mass_columns {
+    int32_t count, degree[6];
+} mps__mass_columns;
+
 /* What one step carries along; committed to the world only when all went well. */
 typedef struct mps__step {
     mps__world *w;
@@ -54,6 +59,7 @@ typedef struct mps__step {
     bool not_converged;
     double momentum_before[MPS__MOMENTUM]; /* of the liquid at the beginning */
     mps__load load;
+    mps__mass_columns columns;
     mps__body_state body; /* of the body that carries the tank, at the end */
     double felt[6];       /* load of the liquid that it felt, of this step alone */
     const double *before; /* positions before particles moved; NULL: they have not */
@@ -139,8 +145,10 @@ typedef struct mps__load_arrays {
 void mps__step_load_now(mps_stage *s, const mps__load_arrays *a, double force[6]);
 /* Change of the velocity of the tank over dt, of its centre and angular. */
 void mps__step_acceleration(const mps__step *q, double accel[6]);
-/* From the matrix of the step, right after the solution of its equation. */
+/* Before the matrix of the step is made; right after the solution of its equation; when all has been done. */
+mps_status mps__step_mass_begin(mps__step *q);
 mps_status mps__step_mass(mps__step *q);
+void mps__step_mass_end(mps__step *q);
 /* The degrees of freedom of the tank: x, y and the rotation about z in 2-D. Returns how many. */
 int32_t mps__step_freedom(int32_t dim, int32_t freedom[6]);
 

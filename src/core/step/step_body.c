@@ -102,11 +102,11 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
 
 typedef struct changes {
     const double *place;                 /* of solids at the end of the step, tank's frame */
-    const double *columns_p, *columns_a; /* changes by each degree [n*dofs], [n*dofs*dim] */
+    const double *columns_p, *columns_a; /* changes by each column [n*count], [n*count*dim] */
     double *pressure, *acceleration, *tank, *velocity;
     double shift[3], rotation[9]; /* of the tank at the end of the step, as it was taken to be */
-    double change[6];             /* by the columns */
-    int32_t dofs;
+    double change[6];             /* of the columns' accelerations */
+    int32_t count;
 } changes;
 
 /* Way of a particle's place in the tank from where the end of the step was taken to be to where it is. */
@@ -152,8 +152,8 @@ MPS_ROW void correct_row(const int dim, const mps_view *v, const changes *f, int
         f->tank[k] += way[d] / (v->dt * v->dt);
         if (!fluid) f->velocity[k] += way[d] / v->dt;
     }
-    for (int32_t c = 0; c < f->dofs; c++) {
-        const int64_t column = i * f->dofs + c;
+    for (int32_t c = 0; c < f->count; c++) {
+        const int64_t column = i * f->count + c;
         f->pressure[i] += f->change[c] * f->columns_p[column];
         for (int d = 0; d < dim && fluid; d++)
             f->acceleration[i * dim + d] += f->change[c] * f->columns_a[column * dim + d];
@@ -196,19 +196,19 @@ static mps_status move_body(mps_stage *s)
     double force[6], change[6];
     int32_t freedom[6];
     mps_motion_state next;
-    if (!mps__body_carries(w)) return MPS_OK;
     if (w->work.bodies)
         return mps__fail(w->context, MPS_E_STATE,
                          "a body carries the tank, and a model moves solids in it (it writes "
                          "'solid_place'): remove that model, or call mps_body_set() with NULL");
     memcpy(f.shift, q->pose.state.value, sizeof f.shift);
     memcpy(f.rotation, q->pose.rotation, sizeof f.rotation);
-    f.dofs = mps__step_freedom(w->setup.dim, freedom);
+    mps__step_freedom(w->setup.dim, freedom);
+    f.count = q->columns.count;
     mps__step_load_now(s, &arrays, force);
     MPS__TRY(solve_body(q, force, change, &next));
     MPS__TRY(mps__world_check_pose(w, &w->motion, &q->pose, MPS_E_DIVERGED));
     mps__motion_view_next(&q->pose, &q->view.tank);
-    for (int32_t k = 0; k < f.dofs; k++) f.change[k] = change[freedom[k]];
+    for (int32_t c = 0; c < f.count; c++) f.change[c] = change[freedom[q->columns.degree[c]]];
     MPS__TRY(check_way(s, &f));
     mps_stage_rows(s, &correct_rows, &f);
     mps__step_note_jump(s, f.tank);
@@ -224,6 +224,12 @@ static const mps_use body_uses[USES] = {
     [REGION] = {"region", MPS_USE_NEIGHBOURS},
     [PLACE] = {"solid_place", MPS_USE_READ}};
 
+static bool carries_none(const void *step)
+{
+    const mps__step *q = step;
+    return !mps__body_carries(q->w);
+}
+
 const mps__pass mps__pass_body = {.name = "body",
                                   .hook = MPS_GRADIENT,
                                   .place = MPS__AFTER_MODELS,
@@ -231,7 +237,8 @@ const mps__pass mps__pass_body = {.name = "body",
                                   .everywhere = true,
                                   .use_count = USES,
                                   .uses = body_uses,
-                                  .run = move_body};
+                                  .run = move_body,
+                                  .idle = carries_none};
 
 /* What the step did to the liquid beside what the body felt. */
 void mps__step_body_end(mps__step *q)

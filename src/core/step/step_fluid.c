@@ -8,18 +8,20 @@ static mps_status find_near_rows(mps_stage *s)
     mps__world *w = mps__step_of(s)->w;
     mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
-    MPS__TRY(mps__neighbours_near(l));
+    int64_t pairs = 0;
+    mps__neighbours_near(l, mps__seen(w, l->begin), mps__seen(w, l->middle),
+                         mps__given(w, l->near_begin));
+    MPS__TRY(mps__twins_fetch(t, l->near_begin + l->n, &pairs, sizeof pairs));
+    MPS__TRY(mps__neighbours_near_fit(l, pairs));
     MPS__TRY(
-        mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, l->n + 1, sizeof *l->near_begin, true));
-    MPS__TRY(mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, l->near_begin[l->n],
-                              sizeof *l->near_col, false));
-    return mps__twins_block(t, MPS__NEAR_WEIGHTS, l->w_r2, l->near_begin[l->n], sizeof *l->w_r2,
-                            false);
+        mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, pairs, sizeof *l->near_col, false));
+    return mps__twins_block(t, MPS__NEAR_WEIGHTS, l->w_r2, pairs, sizeof *l->w_r2, false);
 }
 
 const mps__pass mps__pass_neighbours = {.name = "neighbours",
                                         .hook = MPS_CLASSIFY,
                                         .stage = MPS_STAGE_NEIGHBOURS,
+                                        .flat = true,
                                         .run = find_near_rows};
 
 /* ---- accelerations to velocities ---- */

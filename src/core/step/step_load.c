@@ -20,23 +20,30 @@ typedef struct flow {
     const double *rho, *u;
     const double *a; /* accelerations that velocities get, or NULL */
     const int32_t *region;
+    int32_t masses; /* 1: masses and their arms, too */
     double cell, dt, at[3];
 } flow;
 
+/* Axes of moments. */
+#define TURNS(dim) ((dim) == 3 ? 3 : 1)
+
+/* Momentum [dim], its moment [TURNS], mass, mass times arm [dim]. */
 MPS_ROW void add_moment(const int dim, const mps_view *v, const flow *f, int64_t i, double *term)
 {
-    double r[3] = {0}, u[3] = {0};
+    double r[3] = {0}, u[3] = {0}, turn[3];
     if (!mps_is_fluid(v, i)) return;
     const double m = mps__cell_mass(f->rho, f->region, f->cell, i);
     for (int d = 0; d < dim; d++) {
         r[d] = v->x[i * dim + d] - f->at[d];
         const int64_t k = i * dim + d;
         u[d] = m * (f->a ? f->u[k] + f->dt * f->a[k] : f->u[k]);
-        term[d] = u[d];
-        term[7 + d] = m * r[d];
+        *term++ = u[d];
     }
-    mps__cross(r, u, term + 3);
-    term[6] = m;
+    mps__cross(r, u, turn);
+    for (int k = 0; k < TURNS(dim); k++) *term++ = turn[dim == 2 ? 2 : k];
+    if (!f->masses) return;
+    *term++ = m;
+    for (int d = 0; d < dim; d++) *term++ = m * r[d];
 }
 MPS_SUMS(add_moments, add_moment, flow)
 
@@ -46,20 +53,29 @@ static double cell_of(const mps__world *w)
     return w->setup.dim == 2 ? dp * dp : dp * dp * dp;
 }
 
-/* Of the velocities as they are, or as accelerations `a` make them. */
-static void sum_momentum(const mps__step *q, const double *a, double sums[MPS__MOMENTUM])
+/* Of the velocities as they are, or as accelerations `a` make them. The masses stay what they are in a step: once they are known, they are not
+ * summed again, and 0. */
+static void sum_momentum(const mps__step *q, const double *a, bool masses,
+                         double sums[MPS__MOMENTUM])
 {
     const mps__world *w = q->w;
+    const int32_t dim = w->setup.dim, turns = TURNS(dim), own = dim + turns;
     flow f = {.rho = mps__seen(w, w->particles.rho),
               .u = mps__seen(w, w->particles.u),
               .a = a,
+              .masses = masses,
               .dt = q->view.dt,
               .region = mps__seen(w, w->particles.region),
               .cell = cell_of(w)};
+    double found[MPS__MOMENTUM] = {0};
     mps_view v;
     memcpy(f.at, q->load.at, sizeof f.at);
     mps__world_view(w, &v);
-    mps__host_sum(&w->host, &v, MPS__MOMENTUM, &add_moments, &f, sums);
+    mps__host_sum(&w->host, &v, masses ? own + 1 + dim : own, &add_moments, &f, found);
+    memset(sums, 0, MPS__MOMENTUM * sizeof *sums);
+    memcpy(sums, found, (size_t)dim * sizeof *sums);
+    memcpy(sums + 6 - turns, found + dim, (size_t)turns * sizeof *sums);
+    memcpy(sums + 6, found + own, (size_t)(1 + dim) * sizeof *sums);
 }
 
 /* Regions are those of this step, velocities still those before it. */
@@ -71,7 +87,7 @@ static mps_status begin_load(mps_stage *s)
                           .what = mps__body_carries(w) ? MPS_LOAD_MASS : w->load.watch};
     if (q->load.what == MPS_LOAD_NONE) return MPS_OK;
     mps__motion_point(&w->motion, &w->motion.now, w->motion.centre, q->load.at, NULL, NULL);
-    sum_momentum(q, NULL, q->momentum_before);
+    sum_momentum(q, NULL, true, q->momentum_before);
     return MPS_OK;
 }
 
@@ -140,9 +156,9 @@ static void add_lack(const mps__step *q, const double after[MPS__MOMENTUM], doub
 
 void mps__step_load_now(mps_stage *s, const mps__load_arrays *a, double force[6])
 {
-    double after[MPS__MOMENTUM] = {0};
+    double after[MPS__MOMENTUM];
     sum_halves(s, a, force);
-    sum_momentum(mps__step_of(s), a->acceleration, after);
+    sum_momentum(mps__step_of(s), a->acceleration, false, after);
     add_lack(mps__step_of(s), after, force);
 }
 
@@ -215,19 +231,15 @@ void mps__step_acceleration(const mps__step *q, double accel[6])
 void mps__step_load_end(mps__step *q)
 {
     mps__world *w = q->w;
-    double after[MPS__MOMENTUM] = {0};
+    double after[MPS__MOMENTUM];
     mps__load *l = &q->load;
     if (l->what != MPS_LOAD_NONE) {
-        sum_momentum(q, NULL, after);
+        sum_momentum(q, NULL, false, after);
         add_lack(q, after, l->force);
         mps__step_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;
-        if (l->has_mass) {
-            int32_t freedom[6];
-            const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
-            memcpy(w->mass.guess, w->mass.next, (size_t)(w->particles.n * dofs) * sizeof(double));
-        }
+        if (l->has_mass) mps__step_mass_end(q);
         l->has_mass = l->has_mass && l->watch == MPS_LOAD_MASS;
     }
     w->load = *l;

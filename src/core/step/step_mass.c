@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The added mass: how the load on the tank changes with its acceleration. The pressure equation of the step is linear in it, so each degree of
- * freedom is one more solution of the same matrix, with the same preconditioner; mps__ppe_moments(). The solution of the step before is the
- * first guess. */
+ * freedom is one more solution of the same matrix, with the same preconditioner; mps__ppe.moments has its right side. The solution of the step
+ * before is the first guess. A body needs the columns of its free degrees alone. */
 #include "half_cell.h"
 #include "loop.h"
 #include "step.h"
@@ -32,35 +32,21 @@ MPS_ROW void side_row(const int dim, const side *f, int64_t r)
 }
 MPS__LOOP(side_rows, side_row, side)
 
-/* Pressures of unknowns from those of particles, and back. */
+/* One number of several a place, from another place: pressures of unknowns from those of particles, and back. */
 typedef struct transfer {
-    const int32_t *place; /* of the particle of an unknown, or of the unknown of a particle */
+    const int32_t *place; /* of the particle of an unknown, or of the unknown of a particle; NULL: the same */
     const double *from;
     double *to;
-    int32_t dofs, column;
+    int32_t from_count, from_at, to_count, to_at;
 } transfer;
 
-MPS_ROW void guess_row(const int dim, const transfer *f, int64_t r)
+MPS_ROW void transfer_row(const int dim, const transfer *f, int64_t i)
 {
+    const int64_t place = f->place ? f->place[i] : i;
     (void)dim;
-    f->to[r] = f->from[(int64_t)f->place[r] * f->dofs + f->column];
+    f->to[i * f->to_count + f->to_at] = place >= 0 ? f->from[place * f->from_count + f->from_at] : 0;
 }
-MPS__LOOP(guess_rows, guess_row, transfer)
-
-MPS_ROW void keep_row(const int dim, const transfer *f, int64_t i)
-{
-    (void)dim;
-    f->to[i * f->dofs + f->column] = f->place[i] >= 0 ? f->from[f->place[i]] : 0;
-}
-MPS__LOOP(keep_rows, keep_row, transfer)
-
-/* A column that is not solved keeps its first guess. */
-MPS_ROW void pass_on_row(const int dim, const transfer *f, int64_t i)
-{
-    (void)dim;
-    f->to[i * f->dofs + f->column] = f->from[i * f->dofs + f->column];
-}
-MPS__LOOP(pass_on_rows, pass_on_row, transfer)
+MPS__LOOP(transfer_rows, transfer_row, transfer)
 
 /* What the rows are made of, on the host. */
 static void get_ready(mps__world *w)
@@ -74,44 +60,42 @@ static void get_ready(mps__world *w)
     mps__twins_ready(&w->host.twins, mps__channels_find(&w->channels, "correction"), MPS__ON_HOST);
 }
 
-static mps_status reserve(mps__world *w, int32_t dofs)
+static mps_status reserve(mps__world *w, int32_t count)
 {
     mps__mass *m = &w->mass;
     const mps__ppe *e = &w->ppe;
-    const int64_t n = w->particles.n * dofs;
+    const int64_t n = w->particles.n * count;
     MPS__TRY(mps__grow(w->context, (void **)&m->next, &m->next_capacity, 0,
                        n > m->next_capacity ? mps__room(n, m->next_capacity) : n, sizeof *m->next));
     MPS__TRY(mps__grow(w->context, (void **)&m->a, &m->a_capacity, 0, n * w->setup.dim + 1,
                        sizeof *m->a));
-    MPS__TRY(mps__grow(w->context, (void **)&m->moments, &m->moment_capacity, 0,
-                       e->n * w->setup.dim + 1, sizeof *m->moments));
     MPS__TRY(
         mps__grow(w->context, (void **)&m->rhs, &m->rhs_capacity, 0, e->n + 1, sizeof *m->rhs));
     return mps__grow(w->context, (void **)&m->p, &m->p_capacity, 0, e->columns + 1, sizeof *m->p);
 }
 
-/* The change of the pressures by degree of freedom number k. */
-static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dofs, int32_t k)
+/* The change of the pressures by column c. */
+static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dofs, int32_t c)
 {
     mps__world *w = q->w;
     mps__mass *m = &w->mass;
     mps__ppe *e = &w->ppe;
     const mps_parallel *parallel = &w->pool.parallel;
-    const int32_t dim = w->setup.dim;
+    const int32_t dim = w->setup.dim, count = q->columns.count, degree = q->columns.degree[c];
     mps_ppe_result result = {.struct_size = sizeof result};
-    side f = {.moments = m->moments, .x = e->x, .rhs = m->rhs, .freedom = freedom[k]};
+    side f = {.moments = m->moments, .x = e->x, .rhs = m->rhs, .freedom = freedom[degree]};
     memcpy(f.at, q->load.at, sizeof f.at);
     mps__loop_run(parallel, &side_rows, dim, e->n, &f);
-    mps__loop_run(parallel, &guess_rows, dim, e->columns,
-                  &(transfer){e->particle, m->guess, m->p, dofs, k});
+    mps__loop_run(parallel, &transfer_rows, dim, e->columns,
+                  &(transfer){e->particle, m->guess, m->p, dofs, degree, 1, 0});
     const mps_status status = mps__bounds_solve_change(&w->bounds, &w->solvers, e, m->rhs, m->p,
                                                        &result);
     q->load.iterations += result.iterations;
     if (status < 0 && status != MPS_E_SOLVER) return status;
     q->load.has_mass = q->load.has_mass && status == MPS_OK;
     if (mps_ppe_share(&e->problem, m->p)) return mps__ranks_status(&w->ranks);
-    mps__loop_run(parallel, &keep_rows, dim, w->particles.n,
-                  &(transfer){e->unknown, m->p, m->next, dofs, k});
+    mps__loop_run(parallel, &transfer_rows, dim, w->particles.n,
+                  &(transfer){e->unknown, m->p, m->next, 1, 0, count, c});
     return MPS_OK;
 }
 
@@ -123,9 +107,10 @@ static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dof
 
 typedef struct mass_fields {
     mps__halves halves;
-    const double *p, *correction, *density; /* changes of pressures [n*dofs]; of particles */
-    double *a;                              /* [n*dofs*dim] changes of accelerations */
-    int32_t column;                         /* the first of AT_ONCE */
+    const double *p, *correction, *density; /* changes of pressures [n*count]; of particles */
+    double *a;                              /* [n*count*dim] changes of accelerations */
+    mps__mass_columns columns;
+    int32_t first, last; /* columns of one sum */
     double at[3], cell;
 } mass_fields;
 
@@ -148,59 +133,71 @@ MPS_ROW void tank_acceleration(const int dim, const int k, const double arm[3], 
 
 /* The gradient of gradient.corrected, of all changes at once: a = a_tank - D/n0 B sum w [dp/rho + a_tank.r] r. The mean of a_tank.r over a
  * pair is (arm of i x r) along the axis of a rotation. */
-MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, int64_t i)
+MPS_ROW void change(const int dim, const int count, const mps_view *v, const mass_fields *f,
+                    int64_t i)
 {
-    const int dofs = DOFS(dim);
     const mps_stencil *t = &v->near;
-    const double *b = f->correction + i * dim * dim, *own = f->p + i * dofs;
-    double sum[6][3] = {{0}}, arm[3] = {0}, d3[3] = {0}, turn[3], *a = f->a + i * dofs * dim;
-    for (int k = 0; k < dofs * dim; k++) a[k] = 0;
+    const double *b = f->correction + i * dim * dim, *own = f->p + i * count;
+    double sum[6][3] = {{0}}, arm[3] = {0}, d3[3] = {0}, turn[3], *a = f->a + i * count * dim;
+    for (int k = 0; k < count * dim; k++) a[k] = 0;
     if (!mps__is_about(v, &f->halves, i)) return;
     for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         if (mps_region_of(f->halves.region, mps_stencil_column(t, p)) >= MPS_REGION_SPRAY) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const double over = 1 / mps_flux_density(&v->flux, i, q.j), *other = f->p + q.j * dofs;
+        const double over = 1 / mps_flux_density(&v->flux, i, q.j), *other = f->p + q.j * count;
         for (int d = 0; d < dim; d++) d3[d] = q.d[d];
         mps__cross(arm, d3, turn);
-        for (int k = 0; k < dofs; k++) {
-            const double change = q.w_r2 * ((other[k] - own[k]) * over + along(dim, k, q.d, turn));
-            for (int d = 0; d < dim; d++) sum[k][d] += change * q.d[d];
+        for (int c = 0; c < count; c++) {
+            const double push = (other[c] - own[c]) * over,
+                         change = q.w_r2 * (push + along(dim, f->columns.degree[c], d3, turn));
+            for (int d = 0; d < dim; d++) sum[c][d] += change * q.d[d];
         }
     }
-    for (int k = 0; k < dofs; k++) {
+    for (int c = 0; c < count; c++) {
         double tank[3];
-        tank_acceleration(dim, k, arm, tank);
+        tank_acceleration(dim, f->columns.degree[c], arm, tank);
         for (int d = 0; d < dim; d++) {
-            a[k * dim + d] = tank[d];
+            a[c * dim + d] = tank[d];
             for (int e = 0; e < dim; e++)
-                a[k * dim + d] -= dim / t->n0 * b[d * dim + e] * sum[k][e];
+                a[c * dim + d] -= dim / t->n0 * b[d * dim + e] * sum[c][e];
         }
     }
 }
+
+/* One column, as most bodies have, without a loop over columns in that over pairs. */
+MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, int64_t i)
+{
+    if (f->columns.count == 1)
+        change(dim, 1, v, f, i);
+    else
+        change(dim, f->columns.count, v, f, i);
+}
 MPS_ROWS(change_rows, change_row, mass_fields)
 
-/* Force of the tank on the liquid and its moment, by some degrees of freedom. */
+/* Force of the tank on the liquid and its moment, by some columns. */
 MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, int64_t i,
                         double *term)
 {
-    const int dofs = DOFS(dim), stride = dofs * dim;
-    const double *a = f->a + f->column * dim;
+    const int dofs = DOFS(dim);
+    const int64_t stride = f->halves.stride;
     const bool fluid = mps_is_fluid(v, i);
     double arm[3] = {0}, n[3] = {0};
     const double mass = fluid ? mps__cell_mass(f->density, f->halves.region, f->cell, i)
                               : mps__half_cell(dim, v, &f->halves, i, n);
     if (mass == 0) return;
     for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
-    for (int k = 0; k < AT_ONCE(dim); k++, a += dim, term += dofs) {
+    for (int c = f->first; c < f->last; c++, term += dofs) {
+        const int k = f->columns.degree[c];
+        const double *a = f->a + c * dim;
         double force[3] = {0}, moment[3], tank[3];
         if (fluid)
             for (int d = 0; d < dim; d++) force[d] = a[i * stride + d];
         else {
-            tank_acceleration(dim, f->column + k, arm, tank);
+            tank_acceleration(dim, k, arm, tank);
             mps__halves halves = f->halves;
             halves.a = a;
-            if (f->column + k >= dim) halves.turn[dim == 2 ? 2 : f->column + k - 3] = 1;
+            if (k >= dim) halves.turn[dim == 2 ? 2 : k - 3] = 1;
             mps__half_acceleration(dim, v, &halves, i, tank, n, force);
         }
         for (int d = 0; d < dim; d++) force[d] *= mass;
@@ -215,15 +212,17 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
 {
     mps__world *w = q->w;
     const mps__particles *s = &w->particles;
-    const int32_t dim = s->dim, correction = mps__channels_find(&w->channels, "correction");
+    const int32_t dim = s->dim, correction = mps__channels_find(&w->channels, "correction"),
+                  count = q->columns.count;
     const mps_flux *flux = q->terms.flux;
     mass_fields f = {.halves = {.density = flux->density,
                                 .wetted = flux->wetted,
                                 .region = s->region,
-                                .stride = (int64_t)dofs * dim},
+                                .stride = (int64_t)count * dim},
                      .p = w->mass.next,
                      .a = w->mass.a,
                      .density = s->rho,
+                     .columns = q->columns,
                      .cell = mps_pow(w->setup.dp, dim)};
     mps_view v = q->view;
     memcpy(f.at, q->load.at, sizeof f.at);
@@ -231,13 +230,38 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     v.flux = *flux;
     mps__host_rows(&w->host, &v, &change_rows, &f);
     MPS__TRY(
-        mps__ghosts_share(&w->ghosts, &(mps__shared){f.a, (size_t)(dofs * dim) * sizeof *f.a}, 1));
-    for (; f.column < dofs; f.column += AT_ONCE(dim)) {
+        mps__ghosts_share(&w->ghosts, &(mps__shared){f.a, (size_t)(count * dim) * sizeof *f.a}, 1));
+    for (; f.first < count; f.first = f.last) {
         double sums[MPS_PARALLEL_VALUES] = {0};
-        mps__host_sum(&w->host, &v, AT_ONCE(dim) * dofs, &add_changes, &f, sums);
-        for (int32_t k = 0; k < AT_ONCE(dim) * dofs; k++)
-            q->load.mass[6 * freedom[k % dofs] + freedom[f.column + k / dofs]] = sums[k];
+        f.last = f.first + AT_ONCE(dim) < count ? f.first + AT_ONCE(dim) : count;
+        mps__host_sum(&w->host, &v, (f.last - f.first) * dofs, &add_changes, &f, sums);
+        for (int32_t c = f.first; c < f.last; c++)
+            for (int32_t k = 0; k < dofs; k++)
+                q->load.mass[6 * freedom[k] + freedom[q->columns.degree[c]]] =
+                    sums[(c - f.first) * dofs + k];
     }
+    return MPS_OK;
+}
+
+/* ---- the step ---- */
+
+mps_status mps__step_mass_begin(mps__step *q)
+{
+    mps__world *w = q->w;
+    mps__mass *m = &w->mass;
+    int32_t freedom[6];
+    const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
+    const uint32_t wanted = w->load.watch == MPS_LOAD_MASS
+                                ? ~0U
+                                : mps__rigid_columns(&w->body.given, w->setup.dim);
+    q->columns.count = 0;
+    w->ppe.moments = NULL;
+    if (q->load.what != MPS_LOAD_MASS) return MPS_OK;
+    for (int32_t k = 0; k < dofs; k++)
+        if (wanted >> freedom[k] & 1) q->columns.degree[q->columns.count++] = k;
+    MPS__TRY(mps__grow(w->context, (void **)&m->moments, &m->moment_capacity, 0,
+                       w->particles.n * w->setup.dim, sizeof *m->moments));
+    w->ppe.moments = m->moments;
     return MPS_OK;
 }
 
@@ -246,23 +270,26 @@ mps_status mps__step_mass(mps__step *q)
     mps__world *w = q->w;
     int32_t freedom[6];
     const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
-    const uint32_t wanted = w->load.watch == MPS_LOAD_MASS
-                                ? ~0U
-                                : mps__rigid_columns(&w->body.given, w->setup.dim);
     if (!q->terms.equation.body || mps__channels_find(&w->channels, "correction") < 0)
         return mps__fail(w->context, MPS_E_STATE,
                          "the added mass needs a pressure equation in the frame of the tank, as "
                          "'source.volume' makes it: use that model, or mps_load_watch() with "
                          "MPS_LOAD_FORCE and no mps_body_set()");
-    MPS__TRY(reserve(w, dofs));
+    MPS__TRY(reserve(w, q->columns.count));
     get_ready(w);
     q->load.has_mass = true;
-    mps__ppe_moments(&w->ppe, &q->view, &q->terms, w->mass.moments);
-    for (int32_t k = 0; k < dofs; k++)
-        if (wanted >> freedom[k] & 1)
-            MPS__TRY(solve_column(q, freedom, dofs, k));
-        else
-            mps__loop_run(&w->pool.parallel, &pass_on_rows, w->setup.dim, w->particles.n,
-                          &(transfer){NULL, w->mass.guess, w->mass.next, dofs, k});
+    for (int32_t c = 0; c < q->columns.count; c++)
+        MPS__TRY(solve_column(q, freedom, dofs, c));
     return sum_columns(q, freedom, dofs);
+}
+
+/* The next step begins with what this one has found. */
+void mps__step_mass_end(mps__step *q)
+{
+    mps__world *w = q->w;
+    const int32_t dofs = w->setup.dim == 3 ? 6 : 3, count = q->columns.count;
+    for (int32_t c = 0; c < count; c++)
+        mps__loop_run(&w->pool.parallel, &transfer_rows, w->setup.dim, w->particles.n,
+                      &(transfer){NULL, w->mass.next, w->mass.guess, count, c, dofs,
+                                  q->columns.degree[c]});
 }

@@ -94,6 +94,7 @@ const mps__pass mps__pass_equation = {.name = "equation",
 static mps_status fill_matrix(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
+    MPS__TRY(mps__step_mass_begin(q));
     if (q->terms.equation.radius == MPS_NEAR || q->view.far.col == q->view.near.col)
         mps__twins_lists_ready(&q->w->host.twins);
     return mps__ppe_fill(&q->w->ppe, &q->view, &q->terms);

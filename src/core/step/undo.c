@@ -3,9 +3,11 @@
 #include "undo.h"
 #include <string.h>
 
-/* All that calls write; of positions the step itself keeps the old ones. */
+/* All that calls write; of positions the step itself keeps the old ones. A device may fail in each loop and each copy, to the last, and what it
+ * holds is lost then. */
 static bool is_kept(mps__world *w, const mps__field *f)
 {
+    if (w->host.twins.step) return true;
     return f->data != (void **)&w->particles.x &&
            mps__plan_writes(&w->host.plan, &w->channels, &w->particles, f);
 }
@@ -34,10 +36,15 @@ mps_status mps__undo_keep(mps__world *w)
 
 void mps__undo_restore(mps__world *w, const double *before)
 {
-    const mps__particles *s = &w->particles;
-    for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].undone)
-            memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
+    mps__particles *s = &w->particles;
+    s->changes++;
+    bool moved = before != NULL;
+    for (int32_t k = 0; k < s->fields; k++) {
+        const mps__field *f = &s->field[k];
+        if (!f->undone) continue;
+        memcpy(*f->data, f->kept, bytes_of(w, f));
+        moved = moved && f->data != (void **)&s->x;
+    }
     mps__models_restore(&w->models);
-    if (before) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
+    if (moved) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }

@@ -167,6 +167,8 @@ mps_status mps__world_leave_tank(mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     const mps__particles *s = &w->particles;
+    mps__twins_rows_ready(&w->host.twins);
+    MPS__TRY(mps__device_status(&w->host.twins.device));
     const rims f = {.begin = l->begin,
                     .middle = l->middle,
                     .col = l->col,

@@ -202,6 +202,7 @@ mps_status mps__world_reserve(mps__world *w)
 static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
+    w->particles.changes++;
     MPS__TRY(mps__world_link_walls(w));
     MPS__TRY(mps__plates_find(w));
     mps__neighbours_hide(&w->lists.neighbours);
@@ -309,8 +310,7 @@ static mps_status renew(mps__world *w)
         return search(w, true);
     }
     if (wanted[WRITTEN]) MPS__TRY(mps__world_share_written(w));
-    mps__world_rows(w);
-    return MPS_OK;
+    return mps__world_rows(w);
 }
 
 mps_status mps__world_neighbours(mps__world *w)
@@ -364,19 +364,10 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     MPS__TRY(list_again(w));
     const bool fresh = w->lists.linked == s->solids && w->lists.listed == s->generation &&
                        mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
-    if (fresh) {
-        mps__world_rows(w);
-        return MPS_OK;
-    }
+    if (fresh) return mps__world_rows(w);
     const mps_status status = search(w, false);
     w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */
     return status;
-}
-
-void mps__world_rows(mps__world *w)
-{
-    mps__plates_look(w);
-    mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
 }
 
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil)
@@ -392,21 +383,6 @@ mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *ste
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil)
 {
     return mps__neighbours_view(&w->lists.neighbours, which, &w->setup.kernel, stencil);
-}
-
-mps_status mps__world_lists_twins(mps__world *w)
-{
-    const mps_neighbours *l = &w->lists.neighbours;
-    mps__twins *t = &w->host.twins;
-    const int64_t n = w->particles.n,
-                  turned = w->work.area == w->work.turned ? n * w->setup.dim : 0;
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_BEGIN, l->begin, n, sizeof *l->begin, true));
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, true));
-    if (l->end != l->middle)
-        MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, true));
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col, true));
-    MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
-    return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), true);
 }
 
 mps_status mps__world_add_guess(mps__world *w)

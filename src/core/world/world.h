@@ -161,9 +161,9 @@ typedef struct mps__load {
 typedef struct mps__mass {
     /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
     double *guess;
-    double *next;              /* [n*dofs] that of the step in progress */
-    double *moments, *rhs, *p; /* [rows*dim], [rows], [columns] */
-    double *a;                 /* [n*dofs*dim] change of accelerations */
+    double *next;              /* [n*count] by each column of the step in progress */
+    double *moments, *rhs, *p; /* [n*dim], [rows], [columns] */
+    double *a;                 /* [n*count*dim] change of accelerations */
     int64_t next_capacity, moment_capacity, rhs_capacity, p_capacity, a_capacity;
 } mps__mass;
 
@@ -221,8 +221,8 @@ mps_status mps__world_leave_tank(mps__world *w);
 void mps__world_take_back(mps__world *w);
 /* The same while the caller holds arrays: no particle is removed or moved to another place. */
 mps_status mps__world_neighbours_kept(mps__world *w);
-/* Exact rows at the present positions from lists that are fresh. */
-void mps__world_rows(mps__world *w);
+/* Exact rows at the present positions from lists that are fresh; at the device of a step, if it has them. world_rows.c */
+mps_status mps__world_rows(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */

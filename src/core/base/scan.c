@@ -1,0 +1,55 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Prefix sums. Blocks are summed, then their sums in the same way, and each block gets the sum of those before it. Integers: the order of
+ * additions changes nothing. */
+#include "scan.h"
+
+/* Numbers, and the sum of each block of them; of a single block it is not kept. */
+typedef struct level {
+    int64_t *value, *sum;
+    int64_t n;
+} level;
+
+MPS_ROW void sum_row(const int dim, const level *l, int64_t block)
+{
+    (void)dim;
+    const int64_t begin = block * MPS__SCAN_BLOCK,
+                  end = begin + MPS__SCAN_BLOCK < l->n ? begin + MPS__SCAN_BLOCK : l->n;
+    int64_t sum = 0;
+    for (int64_t i = begin; i < end; i++) l->value[i] = sum += l->value[i];
+    if (l->n > MPS__SCAN_BLOCK) l->sum[block] = sum;
+}
+MPS__LOOP(sum_blocks, sum_row, level)
+
+/* The sums are those of all blocks up to each by now. */
+MPS_ROW void raise_row(const int dim, const level *l, int64_t i)
+{
+    (void)dim;
+    if (i >= MPS__SCAN_BLOCK) l->value[i] += l->sum[i / MPS__SCAN_BLOCK - 1];
+}
+MPS__LOOP(raise_rows, raise_row, level)
+
+static int64_t blocks_of(int64_t n)
+{
+    return (n + MPS__SCAN_BLOCK - 1) / MPS__SCAN_BLOCK;
+}
+
+int64_t mps__scan_room(int64_t n)
+{
+    int64_t room = n;
+    for (; n > MPS__SCAN_BLOCK; n = blocks_of(n)) room += blocks_of(n);
+    return room;
+}
+
+void mps__scan(const mps_parallel *p, int64_t *values, int64_t n)
+{
+    enum { LEVELS = 10 }; /* 128^9 is more than a number of rows can be */
+    level list[LEVELS];
+    int count = 0;
+    for (int64_t *value = values; n > 0; n = n > MPS__SCAN_BLOCK ? blocks_of(n) : 0) {
+        list[count++] = (level){value, value + n, n};
+        mps__loop_run_long(p, &sum_blocks, MPS__ANY_DIM, blocks_of(n), &list[count - 1]);
+        value += n;
+    }
+    for (int k = count - 2; k >= 0; k--)
+        mps__loop_run_cheap(p, &raise_rows, MPS__ANY_DIM, list[k].n, &list[k]);
+}
