@@ -114,6 +114,17 @@ def quick():
     refused("body={mass: 1 kg, roll: {stiffness: 1 N/m}}", "body.roll.stiffness")
     refused("body.load={file: load.csv, columns: {heave: push}}", "heave is not free")
     refused("body.surge.load={amplitude: 1 N}", "omega")
+    refused("body={mass: -1 kg, surge: {stiffness: 1 N/m}}", "body.mass")
+    refused("body={mass: 1 kg, forward: y, surge: {stiffness: 1 N/m}}", "body.forward")
+    refused("body={mass: 1 kg, order: roll pitch, surge: {stiffness: 1 N/m}}", "body.order")
+    refused("body={mass: 1 kg, surge: {stiffness: 1 N/m, damping: -1 N s/m}}", "body.surge.damping")
+    refused("body.load={file: none.csv, columns: {surge: push}}", "none.csv")
+    refused("body.load={file: load.csv, columns: {surge: pull}}", "pull")
+    refused("body.load={file: load.csv}", "body.load")
+    with open("three.yaml", "w", encoding="ascii") as out:
+        out.write(THREE)
+    for inertia, why in (("1 2", "in 3-D it is three numbers"), ("1 1 1 2 0 0", "negative moment"), ("1 1 1 -0.9 -0.9 -0.9", "about some axis")):
+        run("check", "three.yaml", "--set", f"body.inertia={inertia} kg m2", code=2, text=why)
     run("check", "spring.yaml", "--set", "motion={surge: {amplitude: 1 mm, period: 1 s}}", text="1 harmonic")
 
 
@@ -139,6 +150,35 @@ def decay():
 def window(c, begin, end):
     kept = [i for i, t in enumerate(c["t"]) if begin <= t <= end]
     return {k: [v[i] for i in kept] for k, v in c.items()}
+
+
+THREE = """mps: 1
+dim: 3
+dp: 40 mm
+tank: {size: 0.8 0.5 0.32 m}
+fill: [{water: {depth: 0.24 m}}]
+body:
+  centre: 0.4 0 0.16 m
+  mass: 160 kg
+  inertia: 10 20 20 kg m2
+  gravity: no
+  surge: {period: 1 T1, damping: 20 %, load: {amplitude: 15 N, period: 1.666666667 T1, ramp: 3 T1}}
+run: {until: 10 T1}
+output: {frames: 1, page: 0 MB}
+"""
+
+
+def three():
+    """The tank on a spring in 3-D: the wave is that of 2-D."""
+    with open("three.yaml", "w", encoding="ascii") as out:
+        out.write(THREE)
+    run("run", "three.yaml", "-q", "-j", "1", "-o", "three")
+    tank = Box(0.8, 0.24)
+    omega, mass = 0.6 * tank.omega1, 160 / 0.32
+    wet, dry = response(tank, omega, "surge", mass, mass * tank.omega1**2, 0.4 * mass * tank.omega1, 15 / 0.32)
+    found = harmonic(columns("three/probes.csv"), "body_surge", omega, 5 * 2 * math.pi / tank.omega1)
+    check(abs(wet / dry - 1) > 0.1, f"the liquid matters: {wet / dry:.3f} of the response without it")
+    check(abs(found / wet - 1) < 0.03, f"tank on a spring in 3-D: {100 * (found / wet - 1):+.2f} % of theory, at most 3")
 
 
 RATIOS = (0.7, 0.8, 0.9, 1.0, 1.1, 1.2, 1.3)
@@ -170,6 +210,10 @@ def compare_ship(folder, tank, damping):
 if __name__ == "__main__":
     with tempfile.TemporaryDirectory() as work:
         os.chdir(work)
-        ship() if long else quick()
+        if long:
+            three()
+            ship()
+        else:
+            quick()
         os.chdir("/")
     sys.exit(1 if failures else 0)

@@ -125,11 +125,12 @@ static inline int mps__longest(const double *points, int dim)
     return axis;
 }
 
-static inline double mps__dot(const double *a, const double *b, int dim)
+/* Of vectors of n >= 1 numbers: a place has the dimension, a row of six loads six. */
+static inline double mps__dot(const double *a, const double *b, int n)
 {
     /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): see mps__op_begin() */
-    double s = a[0] * b[0] + a[1] * b[1];
-    if (dim == 3) s += a[2] * b[2];
+    double s = a[0] * b[0];
+    for (int k = 1; k < n; k++) s += a[k] * b[k];
     return s;
 }
 
