@@ -9,7 +9,7 @@
 
 /* Numbers of errors, as the driver has them. */
 enum { INVALID = 1, NO_MEMORY = 2, NO_IMAGE = 209, BAD_TEXT = 218, NO_KERNEL = 500, FAILED = 719 };
-enum { ROOMS = 1024, KERNELS = 1024, ARGUMENTS = 16384 };
+enum { ROOMS = 1024, KERNELS = 4096, ARGUMENTS = 16384 };
 
 typedef struct room {
     char *begin;

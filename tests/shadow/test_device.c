@@ -236,6 +236,36 @@ static void costs(void **state)
     }
 }
 
+/* Bytes up of a particle in steps with a search and without one: a search brings new lists, and its order; fields are put in order there. */
+static void searches_copy_little(void **state)
+{
+    static const double range[2][2][2] = {{{60, 150}, {140, 260}}, {{90, 200}, {180, 330}}};
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        mps_sim *sim = rolling("imps", dim);
+        double up[2] = {0, 0};
+        int steps[2] = {0, 0};
+        shadow s;
+        shadow_attach(&s, sim);
+        ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+        for (int k = 0; k < 16; k++) {
+            const int64_t before = sim->world.lists.neighbours.searches;
+            ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+            const int searched = sim->world.lists.neighbours.searches > before;
+            up[searched] += (double)shadow_counts(sim).bytes_up / (double)sim->world.particles.n;
+            steps[searched]++;
+        }
+        for (int k = 0; k < 2; k++) {
+            assert_true(steps[k] > 1);
+            print_message("%d-D, %d searches: %g bytes up a particle\n", (int)dim, k,
+                          up[k] / steps[k]);
+            assert_true(up[k] / steps[k] >= range[dim - 2][k][0]);
+            assert_true(up[k] / steps[k] <= range[dim - 2][k][1]);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -246,6 +276,7 @@ int main(void)
         cmocka_unit_test(failing_devices),
         cmocka_unit_test(own_kernel_stays_on_the_host),
         cmocka_unit_test(costs),
+        cmocka_unit_test(searches_copy_little),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

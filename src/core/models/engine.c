@@ -104,6 +104,8 @@ void mps__twins_free(mps__twins *t)
     for (int32_t k = 0; k < ALL; k++) give_back(t, &t->list[k]);
     for (int32_t k = 0; k < MPS__BLOCKS; k++) give_back(t, &t->block[k]);
     for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
+    give_back(t, &t->order);
+    give_back(t, &t->moved);
     give_back(t, &t->constants);
     if (t->constant) mps__free(t->device.context, t->constant);
     mps__device_end(&t->device);
@@ -197,6 +199,39 @@ mps_status mps__twins_leave(mps__twins *t)
     mps__twins_go(t, MPS__ON_HOST);
     t->open = false;
     return mps__device_status(&t->device);
+}
+
+/* One field, by way of another room, which is that of the field before from then on. Places of walls are others now: they are copied. */
+static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field *f)
+{
+    const mps__twin before = *twin;
+    if (f->data == (void **)&t->particles->wall_of) twin->old[MPS__ON_DEVICE] = true;
+    if (twin->old[MPS__ON_DEVICE] || twin->bytes == 0) return MPS_OK;
+    MPS__TRY(fit(t, &t->moved, twin->room, twin->number));
+    mps__particles_gather(t->parallel, t->moved.data, twin->data, t->particles->n, t->order.data,
+                          (size_t)f->components * f->size);
+    twin->data = t->moved.data;
+    twin->room = t->moved.room;
+    t->moved.data = before.data;
+    t->moved.room = before.room;
+    return MPS_OK;
+}
+
+mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order)
+{
+    mps__particles *s = t->particles;
+    mps_status status = MPS_OK;
+    if (!t->step || t->changes != changes || s->changes == changes || s->n == 0) return MPS_OK;
+    t->changes = -1; /* in case of failure */
+    MPS__TRY(fit(t, &t->order, (size_t)s->n * sizeof *order, sizeof *order));
+    mps__device_upload(&t->device, t->order.data, order, t->order.bytes);
+    t->changes = s->changes;
+    MPS__TRY(mps__twins_enter(t));
+    for (int32_t k = 0; k < s->fields && status == MPS_OK; k++)
+        status = permute_field(t, &t->list[FIELDS + k], &s->field[k]);
+    if (status < 0) t->changes = -1;
+    MPS__TRY(mps__twins_leave(t));
+    return status;
 }
 
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p)

@@ -50,6 +50,7 @@ typedef struct mps__twins {
     mps__twin list[MPS__CHANNELS + MPS__FIELDS_MAX]; /* of channels, of fields */
     mps__twin block[MPS__BLOCKS];
     mps__twin scratch[MPS__SCRATCH]; /* of verbs */
+    mps__twin order, moved;          /* of a permutation: the order, a field in it */
     mps__twin constants;             /* settings of models, viscosities, tensions, */
     double *constant;                /* as they were copied last */
     int64_t told;                    /* mps__models.changes when the log was told; -1: never */
@@ -66,6 +67,9 @@ void mps__twins_begin(mps__twins *t);
 mps_status mps__twins_enter(mps__twins *t);
 /* MPS_E_PLUGIN: a loop has failed. */
 mps_status mps__twins_leave(mps__twins *t);
+/* All particles of the host were put into an order, [n]; `changes`: those of the particles before. Fields that the device has follow them.
+ * MPS_E_NOMEM, MPS_E_PLUGIN */
+mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order);
 /* Its calls begin: room for all fields and for what its calls use. All values are on the host, those of fields that nothing has changed since the
  * step before on the device too. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);

@@ -238,13 +238,19 @@ static const mps__loop *gather_of(size_t bytes)
                          : &gather_any;
 }
 
+void mps__particles_gather(const mps_parallel *p, void *to, const void *from, int64_t count,
+                           const int32_t *order, size_t bytes)
+{
+    mps__loop_run_cheap(p, gather_of(bytes), MPS__ANY_DIM, count,
+                        &(gather_fields){to, from, order, bytes});
+}
+
 /* One array through `scratch`, as large as the array. */
 static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
                           const int32_t *order, char *scratch)
 {
     const size_t bytes = stride(f);
-    mps__loop_run_cheap(s->parallel, gather_of(bytes), MPS__ANY_DIM, count,
-                        &(gather_fields){scratch, *f->data, order, bytes});
+    mps__particles_gather(s->parallel, scratch, *f->data, count, order, bytes);
     mps__parallel_copy(s->parallel, *f->data, scratch, (size_t)count * bytes);
 }
 

@@ -69,6 +69,9 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
 int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
+/* Element order[k] of `from`, of so many bytes, to place k < count of `to`. */
+void mps__particles_gather(const mps_parallel *p, void *to, const void *from, int64_t count,
+                           const int32_t *order, size_t bytes);
 /* So that this cannot fail for at most n particles, until others take its scratch. */
 mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n);
 mps__field *mps__particles_field(mps__particles *s, const char *name);

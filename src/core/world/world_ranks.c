@@ -183,7 +183,9 @@ mps_status mps__world_divide(mps__world *w)
     mps__host_all_alike(&w->host);
     MPS__TRY(mps__neighbours_order(l, s->n, s->x, s->id, w->setup.re_far));
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
+    const int64_t changes = s->changes;
     MPS__TRY(mps__particles_permute(s, s->n, l->order));
+    MPS__TRY(mps__twins_permute(&w->host.twins, changes, l->order));
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
