@@ -44,9 +44,9 @@ typedef struct mps__ppe {
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *shift, *weight;
-    double *x;          /* [columns*dim] */
-    double *p;          /* [columns] */
-    double *gas, *law;  /* NULL: all rows are linear */
+    double *x;         /* [columns*dim] */
+    double *p;         /* [columns] */
+    double *gas, *law; /* NULL: all rows are linear */
     /* [n*dim], room that mps__ppe_fill() is given for S_i = sum_j k_ij rho_ij r_ij of each row; NULL: it is not wanted. Where the equation has
      * the body term, an acceleration a of the tank adds a.S_i to the right side, and an angular acceleration o about a point c adds
      * o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */

@@ -34,7 +34,8 @@ MPS__LOOP(side_rows, side_row, side)
 
 /* One number of several a place, from another place: pressures of unknowns from those of particles, and back. */
 typedef struct transfer {
-    const int32_t *place; /* of the particle of an unknown, or of the unknown of a particle; NULL: the same */
+    const int32_t
+        *place; /* of the particle of an unknown, or of the unknown of a particle; NULL: the same */
     const double *from;
     double *to;
     int32_t from_count, from_at, to_count, to_at;
@@ -44,7 +45,8 @@ MPS_ROW void transfer_row(const int dim, const transfer *f, int64_t i)
 {
     const int64_t place = f->place ? f->place[i] : i;
     (void)dim;
-    f->to[i * f->to_count + f->to_at] = place >= 0 ? f->from[place * f->from_count + f->from_at] : 0;
+    f->to[i * f->to_count + f->to_at] = place >= 0 ? f->from[place * f->from_count + f->from_at]
+                                                   : 0;
 }
 MPS__LOOP(transfer_rows, transfer_row, transfer)
 
@@ -278,8 +280,7 @@ mps_status mps__step_mass(mps__step *q)
     MPS__TRY(reserve(w, q->columns.count));
     get_ready(w);
     q->load.has_mass = true;
-    for (int32_t c = 0; c < q->columns.count; c++)
-        MPS__TRY(solve_column(q, freedom, dofs, c));
+    for (int32_t c = 0; c < q->columns.count; c++) MPS__TRY(solve_column(q, freedom, dofs, c));
     return sum_columns(q, freedom, dofs);
 }
 
@@ -289,7 +290,7 @@ void mps__step_mass_end(mps__step *q)
     mps__world *w = q->w;
     const int32_t dofs = w->setup.dim == 3 ? 6 : 3, count = q->columns.count;
     for (int32_t c = 0; c < count; c++)
-        mps__loop_run(&w->pool.parallel, &transfer_rows, w->setup.dim, w->particles.n,
-                      &(transfer){NULL, w->mass.next, w->mass.guess, count, c, dofs,
-                                  q->columns.degree[c]});
+        mps__loop_run(
+            &w->pool.parallel, &transfer_rows, w->setup.dim, w->particles.n,
+            &(transfer){NULL, w->mass.next, w->mass.guess, count, c, dofs, q->columns.degree[c]});
 }
