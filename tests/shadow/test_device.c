@@ -99,15 +99,15 @@ static void checkpoints_change_sides(void **state)
 
 /* ---- failures ---- */
 
-/* Whichever launch fails, the step fails and leaves the state as it was. */
+/* Whichever launch fails, the step fails and leaves the state as it was. It is a step that finds the particles in the order of the one before. */
 static void failing_launches(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
     shadow s;
     (void)state;
     shadow_attach(&s, sim);
-    go(host, 2);
-    go(sim, 2);
+    go(host, 3);
+    go(sim, 3);
     const int64_t before = s.launches;
     go(host, 1);
     go(sim, 1);
@@ -117,8 +117,9 @@ static void failing_launches(void **state)
         s.fails_at = s.launches + k;
         const mps_status status = mps_step(sim, 0.01, NULL);
         if (status == MPS_OK) { /* there are no rows to fail behind it */
+            s.fails_at = 0;
             go(host, 1);
-            continue;
+            break;
         }
         assert_int_equal(status, MPS_E_PLUGIN);
         assert_non_null(strstr(mps_sim_error(sim), "device 'shadow' failed: as the test wants it"));
@@ -126,7 +127,7 @@ static void failing_launches(void **state)
         failed++;
         same(host, sim);
     }
-    assert_true(failed > launches / 6);
+    assert_true(failed > launches / 4);
     s.fails_at = 0;
     go(host, 2);
     go(sim, 2);
@@ -167,7 +168,11 @@ static void note(void *user, int level, const char *text)
         snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
 }
 
-/* Ranges of one step: from the first, to the second. Bytes are those of a particle. */
+/* Of an iteration of conjugate gradients with auxgrid of one grid: the product, five loops over vectors and six of the preconditioner, one of
+ * them a clear. Three sums and the right side of the last grid are waited for. */
+enum { LAUNCHES = 11, WAITS = 4 };
+
+/* Ranges of one step beside iterations: from the first, to the second. Bytes are those of a particle. */
 typedef struct cost {
     const char *preset;
     int32_t dim;
@@ -186,9 +191,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {70, 95}, {20, 45}, {150, 280}, {60, 225}},
-        {"imps", 3, {70, 100}, {20, 50}, {150, 310}, {60, 255}},
-        {"mmps", 2, {90, 120}, {25, 60}, {150, 325}, {60, 280}},
+        {"imps", 2, {75, 105}, {40, 70}, {250, 430}, {120, 290}},
+        {"imps", 3, {80, 115}, {40, 75}, {250, 430}, {120, 300}},
+        {"mmps", 2, {95, 130}, {40, 75}, {250, 520}, {120, 340}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
@@ -199,8 +204,13 @@ static void costs(void **state)
         sim->context.log = note;
         sim->context.log_user = told;
         shadow_attach(&s, sim);
-        go(sim, 6);
-        const mps_device_info i = shadow_counts(sim);
+        go(sim, 5);
+        mps_step_info step = {.struct_size = sizeof step};
+        ASSERT_OK(sim, mps_step(sim, 0.01, &step));
+        mps_device_info i = shadow_counts(sim);
+        i.launches -= LAUNCHES * step.ppe_iterations;
+        i.waits -= WAITS * step.ppe_iterations;
+        assert_true(step.ppe_iterations > 5);
         const double n = (double)sim->world.particles.n;
         print_message(
             "%s in %d-D: %lld launches, %lld waits, %.0f bytes up, %.0f down a particle\n",

@@ -3,9 +3,16 @@
 #include "undo.h"
 #include <string.h>
 
+/* What is new on a device that fails is lost, and with it the old positions that a step has there. */
+static bool on_device(const mps__world *w)
+{
+    return mps__device_there(&w->host.twins.device);
+}
+
 /* All that calls write; of positions the step itself keeps the old ones. */
 static bool is_kept(mps__world *w, const mps__field *f)
 {
+    if (on_device(w)) return true;
     return f->data != (void **)&w->particles.x &&
            mps__plan_writes(&w->host.plan, &w->channels, &w->particles, f);
 }
@@ -39,5 +46,5 @@ void mps__undo_restore(mps__world *w, const double *before)
         if (s->field[k].undone)
             memcpy(*s->field[k].data, s->field[k].kept, bytes_of(w, &s->field[k]));
     mps__models_restore(&w->models);
-    if (before) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
+    if (before && !on_device(w)) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
 }
