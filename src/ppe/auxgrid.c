@@ -10,6 +10,7 @@ typedef struct auxgrid {
     mps__grid grid;
     double *inverse; /* [n] of the diagonal, in memory of the grid that is free once it is there */
     int64_t n;
+    mps__grid_away away;
 } auxgrid;
 
 static int create(const mps_allocator *allocator, void **self)
@@ -100,6 +101,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
                   rows = problem->ranks ? problem->ranks->rows : problem->n;
     int reason = check(problem);
     g->levels = 0;
+    a->away.there = false;
     if (reason) return reason;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */
     a->n = problem->n;
@@ -127,20 +129,35 @@ MPS__LOOP(apply_rows, apply_row, application)
 static int apply(void *self, const double *r, double *z)
 {
     auxgrid *a = self;
-    mps__grid *g = &a->grid;
+    const bool there = a->away.there;
+    mps__grid *g = there ? &a->away.grid : &a->grid;
+    const double *inverse = there ? a->away.inverse : a->inverse;
     if (g->levels == 0) return 0; /* no rank has rows */
     int reason = mps__grid_restrict(g, r, g->unit);
     if (!reason) reason = mps__grid_cycle(g);
     if (reason) return reason;
     mps__loop_run_cheap(g->parallel, &apply_rows, g->dim, a->n,
-                        &(application){mps__grid_points_of(&g->level[0]), a->inverse, r, z});
+                        &(application){mps__grid_points_of(&g->level[0]), inverse, r, z});
     return 0;
+}
+
+int mps__auxgrid_send(void *self, mps__device *d)
+{
+    auxgrid *a = self;
+    return mps__grid_send(&a->away, &a->grid, d, a->inverse);
+}
+
+void mps__auxgrid_leave(void *self)
+{
+    mps__grid_leave(&((auxgrid *)self)->away);
 }
 
 static void destroy(const mps_allocator *allocator, void *self)
 {
     auxgrid *a = self;
     if (!a) return;
+    mps__grid_leave(&a->away);
+    mps__give(allocator, a->away.lists.at);
     mps__grid_release(&a->grid);
     mps__give(allocator, a);
 }

@@ -4,6 +4,7 @@
 #ifndef MPS_PPE_AUXGRID_H
 #define MPS_PPE_AUXGRID_H
 
+#include "device.h"
 #include "loop.h"
 #include <mps/ppe.h>
 #include <stdbool.h>
@@ -45,11 +46,6 @@ typedef struct mps__grid_level {
     double *count;   /* [cells] particles */
     double *b,
         *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
-    /* on a device alone: cells of the finer grid that add to each of this one */
-    int32_t *first; /* [cells + 1] */
-    int32_t *from;  /* [first[cells]] ascending for each */
-    float *part;    /* [first[cells]] of what is left of their right side */
-    double *rest;   /* [red] that, of the own cells */
 } mps__grid_level;
 
 /* Room that grows and is kept; its contents are not. */
@@ -165,7 +161,30 @@ typedef struct mps__grid {
     int64_t
         turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
     mps__grid_ranks ranks;
+    const struct mps__grid_away *away; /* these grids are on a device; NULL: here */
 } mps__grid;
+
+/* Cells of the finer grid that add to each cell, on a device. */
+typedef struct mps__grid_adding {
+    int32_t *first; /* [cells + 1] */
+    int32_t *from;  /* [first[cells]] ascending for each */
+    float *part;    /* [first[cells]] of what is left of their right side */
+} mps__grid_adding;
+
+/* Copies on a device of grids that the host has made. */
+typedef struct mps__grid_away {
+    bool there; /* they are those of the present equation */
+    mps__device *device;
+    void *room; /* all arrays there */
+    size_t bytes;
+    mps__grid_room lists;                          /* those of `list` */
+    mps__grid_adding list[MPS__GRID_LEVELS];       /* here, but for level 0 */
+    mps__grid_adding there_list[MPS__GRID_LEVELS]; /* there */
+    double *rest[MPS__GRID_LEVELS];                /* [red] residuals, there */
+    double *inverse;                               /* of the diagonal, there */
+    mps__grid *here;
+    mps__grid grid; /* with the arrays there that a cycle uses */
+} mps__grid_away;
 
 static inline bool mps__grid_many(const mps__grid *g)
 {
@@ -257,6 +276,18 @@ void mps__grid_undivide(mps__grid *g);
 void mps__grid_divided_release(mps__grid *g);
 /* Values of the cells of a plan from their owners. */
 int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values);
+
+/* ---- grids on a device (auxgrid_device.c) ---- */
+
+/* Copies of the grids, which stay as they are; `inverse` [points]. Returns 0 or a reason of failure. */
+int mps__grid_send(mps__grid_away *a, mps__grid *g, mps__device *d, const double *inverse);
+/* Give back the memory of the device. */
+void mps__grid_leave(mps__grid_away *a);
+/* Right side of level k from the residuals of the finer one. */
+void mps__grid_gather(const mps__grid_away *a, int k);
+/* The last grid of the host, with the right side from the device; its solution to the device. */
+mps__grid_level *mps__grid_last_come(const mps__grid_away *a);
+void mps__grid_last_go(const mps__grid_away *a);
 
 /* ---- cycle (auxgrid_cycle.c) ---- */
 

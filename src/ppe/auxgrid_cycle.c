@@ -188,6 +188,22 @@ MPS_ROW double rest_of(const int dim, const cells *f, int64_t c)
     return f->b[c] + pull(dim, f, c) - f->x[c] / f->inverse[c];
 }
 
+MPS_ROW void rest_row(const int dim, const cells *f, int64_t c)
+{
+    f->rest[c] = f->coarse.home[c] < 0 ? 0 : rest_of(dim, f, c);
+}
+MPS__LOOP(rest_rows, rest_row, cells)
+
+/* Grid k on a device to the next one. */
+static void restrict_there(const mps__grid *g, int k)
+{
+    cells f = cells_of(&g->level[k]);
+    f.coarse = mps__grid_points_of(&g->level[k + 1]);
+    f.rest = g->away->rest[k];
+    run(g, &rest_rows, f.red, &f);
+    mps__grid_gather(g->away, k + 1);
+}
+
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
 static void restrict_residual(const mps__grid *g, const mps__grid_level *fine,
                               const mps__grid_level *l)
@@ -297,9 +313,13 @@ static void cycle_whole(mps__grid *g, int first)
     int last = g->levels - 1;
     for (int k = first; k < last; k++) {
         sweep_down(g, &g->level[k]);
-        restrict_residual(g, &g->level[k], &g->level[k + 1]);
+        if (g->away)
+            restrict_there(g, k);
+        else
+            restrict_residual(g, &g->level[k], &g->level[k + 1]);
     }
-    solve_last(g, &g->level[last]);
+    solve_last(g, g->away ? mps__grid_last_come(g->away) : &g->level[last]);
+    if (g->away) mps__grid_last_go(g->away);
     for (int k = last - 1; k >= first; k--) {
         correct(g, &g->level[k], &g->level[k + 1]);
         sweep_up(g, &g->level[k]);

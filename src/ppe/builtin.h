@@ -20,6 +20,17 @@ extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
+struct mps__device;
+
+/* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation of one rank whose components are not singular:
+ * arrays of the problem, but for shift and x, and p are there, and so is its parallel-for. auxgrid is set up on the host; then its grids go
+ * to the device, where apply() runs until the next set-up. Returns 0 or a reason of failure. */
+int mps__auxgrid_send(void *self, struct mps__device *d);
+/* What they have on a device is given back; call it before the device is detached. */
+void mps__pcg_leave(void *self);
+void mps__jacobi_leave(void *self);
+void mps__auxgrid_leave(void *self);
+
 /* All of them, ended by NULL. */
 extern const mps_solver_ops *const mps__builtin_solvers[];
 extern const mps_preconditioner_ops *const mps__builtin_preconditioners[];

@@ -7,7 +7,8 @@
 
 typedef struct jacobi {
     mps_allocator allocator;
-    double *inverse; /* [capacity] */
+    mps_allocator arrays; /* of the host or of a device */
+    double *inverse;      /* [capacity] */
     int64_t n, capacity;
     const mps_parallel *parallel;
 } jacobi;
@@ -16,17 +17,34 @@ static int create(const mps_allocator *allocator, void **self)
 {
     jacobi *j = mps__take(allocator, 1, sizeof *j);
     if (!j) return MPS_PPE_NOMEM;
-    *j = (jacobi){.allocator = *allocator};
+    *j = (jacobi){.allocator = *allocator, .arrays = *allocator};
     *self = j;
     return 0;
+}
+
+/* The array lies where the loops over it run. */
+static void settle(jacobi *j, const mps_parallel *parallel)
+{
+    mps__device *d = mps__device_of(parallel);
+    const mps_allocator wanted = d ? mps__device_allocator(d) : j->allocator;
+    if (wanted.alloc == j->arrays.alloc && wanted.user == j->arrays.user) return;
+    mps__give(&j->arrays, j->inverse);
+    j->inverse = NULL;
+    j->capacity = 0;
+    j->arrays = wanted;
+}
+
+void mps__jacobi_leave(void *self)
+{
+    settle(self, NULL);
 }
 
 static bool reserve(jacobi *j, int64_t n)
 {
     if (n <= j->capacity) return true;
-    mps__give(&j->allocator, j->inverse);
+    mps__give(&j->arrays, j->inverse);
     j->capacity = n + n / 8;
-    j->inverse = mps__take(&j->allocator, j->capacity, sizeof *j->inverse);
+    j->inverse = mps__take(&j->arrays, j->capacity, sizeof *j->inverse);
     if (!j->inverse) j->capacity = 0;
     return j->inverse;
 }
@@ -53,6 +71,7 @@ MPS__VALUES(invert_rows, invert_row, operands, 0, VALUES)
 static int setup(void *self, const mps_ppe_problem *problem)
 {
     jacobi *j = self;
+    settle(j, problem->parallel);
     if (!reserve(j, problem->n)) return MPS_PPE_NOMEM;
     j->n = problem->n;
     j->parallel = problem->parallel;
@@ -74,7 +93,7 @@ static void destroy(const mps_allocator *allocator, void *self)
 {
     jacobi *j = self;
     if (!j) return;
-    mps__give(allocator, j->inverse);
+    mps__give(&j->arrays, j->inverse);
     mps__give(allocator, j);
 }
 

@@ -283,7 +283,7 @@ static int create(const mps_allocator *allocator, void **self)
 {
     newton *k = mps__take(allocator, 1, sizeof *k);
     if (!k) return MPS_PPE_NOMEM;
-    *k = (newton){.log = *self, .space = {.allocator = *allocator}};
+    *k = (newton){.log = *self, .space = {.allocator = *allocator, .arrays = *allocator}};
     if (make_solver(k)) {
         *self = k;
         return 0;

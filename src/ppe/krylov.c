@@ -75,7 +75,7 @@ static void drop_arrays(krylov *k)
 {
     double **all[] = {&k->start, &k->residual, &k->correction, &k->inner};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        mps__give(&k->space.allocator, *all[i]);
+        mps__give(&k->space.arrays, *all[i]);
         *all[i] = NULL;
     }
     k->space.capacity = 0;
@@ -84,7 +84,7 @@ static void drop_arrays(krylov *k)
 /* Arrays of this length, here and in all vectors. */
 static bool make_arrays(krylov *k, int64_t capacity)
 {
-    const mps_allocator *a = &k->space.allocator;
+    const mps_allocator *a = &k->space.arrays;
     drop_arrays(k);
     k->start = mps__take(a, capacity, sizeof *k->start);
     k->residual = mps__take(a, capacity, sizeof *k->residual);
@@ -95,6 +95,21 @@ static bool make_arrays(krylov *k, int64_t capacity)
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
     return mps__space_grow(&k->space, capacity);
+}
+
+/* Arrays lie where the loops over them run. */
+static void settle(krylov *k, const mps_parallel *parallel)
+{
+    mps__device *d = mps__device_of(parallel);
+    const mps_allocator wanted = d ? mps__device_allocator(d) : k->space.allocator;
+    if (wanted.alloc == k->space.arrays.alloc && wanted.user == k->space.arrays.user) return;
+    drop_arrays(k);
+    mps__space_leave(&k->space, &wanted);
+}
+
+void mps__krylov_leave(void *self)
+{
+    settle(self, NULL);
 }
 
 /* All that SUNDIALS allocates, made once and before the first step. */
@@ -128,6 +143,7 @@ static bool make_sums(krylov *k, int64_t components)
 /* Room for a problem; kept for the next one. */
 static bool prepare(krylov *k, const mps_ppe_problem *problem)
 {
+    settle(k, problem->parallel);
     k->space.n = problem->n;
     k->space.parallel = problem->parallel;
     k->space.weight = problem->divergence > 0 ? problem->weight : NULL;
@@ -231,7 +247,8 @@ int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *alloca
 {
     krylov *k = mps__take(allocator, 1, sizeof *k);
     if (!k) return MPS_PPE_NOMEM;
-    *k = (krylov){.kind = kind, .log = *self, .space = {.allocator = *allocator}};
+    *k = (krylov){
+        .kind = kind, .log = *self, .space = {.allocator = *allocator, .arrays = *allocator}};
     if (make_solver(k)) {
         *self = k;
         return 0;

@@ -24,6 +24,11 @@ static int create(const mps_allocator *allocator, void **self)
     return mps__krylov_create(&kind, allocator, self);
 }
 
+void mps__pcg_leave(void *self)
+{
+    mps__krylov_leave(self);
+}
+
 const mps_solver_ops mps__solver_pcg = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,

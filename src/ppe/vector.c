@@ -50,9 +50,9 @@ static void destroy(N_Vector v)
     if (!v) return;
     content *c = v->content;
     if (c) {
-        mps_allocator allocator = c->space->allocator;
+        const mps_allocator allocator = c->space->allocator;
         if (c->owned) forget(c->space, v);
-        if (c->owned) mps__give(&allocator, c->data);
+        if (c->owned) mps__give(&c->space->arrays, c->data);
         mps__give(&allocator, c);
     }
     v->content = NULL;
@@ -61,11 +61,11 @@ static void destroy(N_Vector v)
 
 static N_Vector new_owned(mps__space *space)
 {
-    double *data = mps__take(&space->allocator, space->capacity, sizeof *data);
+    double *data = mps__take(&space->arrays, space->capacity, sizeof *data);
     if (!data) return NULL;
     N_Vector v = mps__vector_wrap(space, data);
     if (!v) {
-        mps__give(&space->allocator, data);
+        mps__give(&space->arrays, data);
         return NULL;
     }
     content_of(v)->owned = true;
@@ -233,16 +233,22 @@ bool mps__space_reserve(mps__space *space, int count)
     return true;
 }
 
+void mps__space_leave(mps__space *space, const mps_allocator *arrays)
+{
+    for (N_Vector v = space->owned; v; v = content_of(v)->next_owned) {
+        mps__give(&space->arrays, content_of(v)->data);
+        content_of(v)->data = NULL;
+    }
+    space->arrays = *arrays;
+    space->capacity = 0;
+}
+
 bool mps__space_grow(mps__space *space, int64_t capacity)
 {
     bool good = true;
-    space->capacity = 0;
-    for (N_Vector v = space->owned; v; v = content_of(v)->next_owned) {
-        mps__give(&space->allocator, content_of(v)->data);
-        content_of(v)->data = NULL;
-    }
+    mps__space_leave(space, &space->arrays);
     for (N_Vector v = space->owned; v && good; v = content_of(v)->next_owned) {
-        content_of(v)->data = mps__take(&space->allocator, capacity, sizeof(double));
+        content_of(v)->data = mps__take(&space->arrays, capacity, sizeof(double));
         good = content_of(v)->data != NULL;
     }
     if (good) space->capacity = capacity;

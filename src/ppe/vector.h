@@ -11,6 +11,7 @@
  * size of a problem is known, and mps__space_grow() gives them their arrays. */
 typedef struct mps__space {
     mps_allocator allocator;
+    mps_allocator arrays; /* of the host or of a device: where the loops over them run */
     SUNContext context;
     int64_t n, capacity;
     const mps_parallel *parallel;
@@ -35,6 +36,8 @@ N_Vector mps__vector_stop(mps__space *space);
 bool mps__space_reserve(mps__space *space, int count);
 /* Room for `capacity` elements in all vectors that own their array; what was in them is lost. False when out of memory: the capacity is 0. */
 bool mps__space_grow(mps__space *space, int64_t capacity);
+/* Give back all arrays; the next ones come from `arrays`. */
+void mps__space_leave(mps__space *space, const mps_allocator *arrays);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);

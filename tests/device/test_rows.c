@@ -60,6 +60,39 @@ static void presets(void **state)
             compare(rolling(preset[k], dim), rolling(preset[k], dim), 5);
 }
 
+/* Loops of grids that the host has and of those that a device has. */
+static const char *const of_grids[] = {
+    "auxgrid_transfer__add_turns in 2-D", "auxgrid_transfer__add_turns in 3-D",
+    "auxgrid_cycle__relax_rows in 2-D",   "auxgrid_cycle__relax_rows in 3-D",
+    "auxgrid_cycle__begin_rows in 2-D",   "auxgrid_cycle__correct_rows in 2-D",
+    "auxgrid_cycle__correct_rows in 3-D", "auxgrid_cycle__rest_rows in 2-D",
+    "auxgrid_cycle__rest_rows in 3-D",    "auxgrid_device__gather_rows in 2-D",
+    "jacobi__invert_rows in 2-D"};
+
+/* So many cells that auxgrid has a second grid; and jacobi. */
+static mps_sim *fine(int32_t dim, const char *preconditioner)
+{
+    mps_sim *sim = new_sim(dim, dim == 2 ? 0.01 : 0.03);
+    add_tank(sim, 0.6, 0.6, 0.4);
+    fill_depth(sim, 0.6, 0.3, 0.4);
+    ASSERT_OK(sim, mps_solver_use(sim, "sundials.pcg", preconditioner));
+    shake(sim, 0.05);
+    return sim;
+}
+
+static void several_grids(void **state)
+{
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) compare(fine(dim, "auxgrid"), fine(dim, "auxgrid"), 1);
+    compare(fine(2, "jacobi"), fine(2, "jacobi"), 1);
+    for (size_t k = 0; k < sizeof of_grids / sizeof of_grids[0]; k++) {
+        bool there = false;
+        for (int m = 0; m < device.kernels && !there; m++)
+            there = strstr(device.kernel[m].name, of_grids[k]) && device.kernel[m].launches > 0;
+        if (!there) fail_msg("%s has not run", of_grids[k]);
+    }
+}
+
 static void other_scenes(void **state)
 {
     (void)state;
@@ -85,8 +118,12 @@ static void all_models(void **state)
 static void kernels_are_there(void **state)
 {
     static const char *const without[] = {"neighbours__search_parts",
-                                          "neighbours_rows__exact_parts", "voids_cells__",
-                                          "levels__join_rows"}; /* ON_HOST of that script */
+                                          "neighbours_rows__exact_parts",
+                                          "voids_cells__",
+                                          "levels__join_rows",
+                                          "_listed in",
+                                          "__clear_turns",
+                                          "__sum_turns"}; /* ON_HOST of that script */
     int64_t launches = 0, different = 0;
     int kernels = 0;
     (void)state;
@@ -224,6 +261,7 @@ int main(void)
         cmocka_unit_test(sums_of_any_size),
         cmocka_unit_test(scans_of_any_size),
         cmocka_unit_test(presets),
+        cmocka_unit_test(several_grids),
         cmocka_unit_test(other_scenes),
         cmocka_unit_test(all_models),
         cmocka_unit_test(kernels_are_there),

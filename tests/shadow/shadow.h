@@ -6,7 +6,7 @@
 #include "sim.h"
 #include <mps/device.h>
 
-enum { SHADOW_ROOMS = 512 };
+enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 50 };
 
 typedef struct shadow {
     mps_device_ops ops;
@@ -14,7 +14,9 @@ typedef struct shadow {
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
     bool refuses;                         /* there is no room */
-    int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
+    int64_t fails_at, loses_at; /* launch, download that fails; 0: none */
+    char *arena, *arena_end;    /* memory of all rooms; NULL: there are none */
+    int32_t seen[SHADOW_LOOPS]; /* launches of each loop, by its name */
     struct {
         char *begin;
         size_t bytes;

@@ -13,6 +13,7 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     if (ops && w->ranks.count > 1)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the handle has %d ranks: a device is for one rank", (int)w->ranks.count);
+    mps__solvers_leave(&w->solvers, &w->host.twins.device);
     return mps__twins_attach(&w->host.twins, ops);
 }
 

@@ -94,6 +94,34 @@ void mps__device_give(mps__device *d, void *room, size_t bytes)
     d->info.bytes_held -= (int64_t)bytes;
 }
 
+static void *alloc_block(void *user, size_t bytes)
+{
+    mps__device *d = user;
+    int k = 0;
+    while (k < MPS__DEVICE_BLOCKS && d->block[k].room) k++;
+    void *room = k < MPS__DEVICE_BLOCKS && bytes > 0 ? mps__device_room(d, bytes) : NULL;
+    if (!room) return NULL;
+    d->block[k].room = room;
+    d->block[k].bytes = bytes;
+    return room;
+}
+
+static void release_block(void *user, void *room)
+{
+    mps__device *d = user;
+    for (int k = 0; k < MPS__DEVICE_BLOCKS; k++) {
+        if (d->block[k].room != room) continue;
+        mps__device_give(d, room, d->block[k].bytes);
+        d->block[k].room = NULL;
+        return;
+    }
+}
+
+mps_allocator mps__device_allocator(mps__device *d)
+{
+    return (mps_allocator){.alloc = alloc_block, .release = release_block, .user = d};
+}
+
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes)
 {
     if (d->failed || bytes == 0) return;

@@ -6,12 +6,19 @@
 #include "base.h"
 #include <mps/device.h>
 
+/* Blocks of mps__device_allocator() at a time. */
+enum { MPS__DEVICE_BLOCKS = 32 };
+
 typedef struct mps__device {
     mps__context *context;
     mps_device_ops ops;    /* name NULL: there is none */
     mps_device_info info;  /* of the step in progress */
     mps_parallel parallel; /* while calls run on the device */
     bool failed;           /* a call has: nothing is asked of the device until the next step */
+    struct {
+        void *room;
+        size_t bytes;
+    } block[MPS__DEVICE_BLOCKS];
 } mps__device;
 
 void mps__device_init(mps__device *d, mps__context *context);
@@ -32,6 +39,8 @@ mps_status mps__device_status(const mps__device *d);
 /* Memory; NULL with the error text set: there is none. */
 void *mps__device_room(mps__device *d, size_t bytes);
 void mps__device_give(mps__device *d, void *room, size_t bytes);
+/* The same as an allocator, which knows the bytes of its few blocks. */
+mps_allocator mps__device_allocator(mps__device *d);
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_clear(mps__device *d, void *to, size_t bytes);

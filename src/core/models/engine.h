@@ -76,6 +76,11 @@ mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
 /* The array of a block in this step; `values`: it has some, on the host. Without a step on a device nothing is done. */
 mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,
                             bool values);
+/* The device of the step in progress; NULL: there is none. */
+static inline mps__device *mps__twins_device(mps__twins *t)
+{
+    return t->open ? &t->device : NULL;
+}
 /* It is over, wherever it has ended: all fields and lists come to the host. MPS_E_PLUGIN: they did not. */
 mps_status mps__twins_close(mps__twins *t);
 

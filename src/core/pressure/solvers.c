@@ -258,7 +258,9 @@ static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const 
 static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
 {
     mps__solvers *s = self;
-    const int reason = s->again && s->ready ? MPS_PPE_CONVERGED : s->pc->setup(s->pc_self, problem);
+    int reason = MPS_PPE_CONVERGED;
+    if (!(s->again && s->ready))
+        reason = s->here ? mps__solvers_setup_there(s, problem) : s->pc->setup(s->pc_self, problem);
     s->ready = reason == MPS_PPE_CONVERGED;
     return reason;
 }
@@ -283,8 +285,8 @@ static void run_solver(const mps__solvers *s, const mps_ppe_problem *problem,
 }
 
 /* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
-static void solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
-                  mps_ppe_result *result)
+void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                      mps_ppe_result *result)
 {
     const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
     mps_ppe_result second = {.struct_size = sizeof second};
@@ -325,7 +327,10 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){.struct_size = sizeof *result};
     if ((problem->ranks ? problem->ranks->rows : problem->n) == 0) return MPS_OK;
-    solve(s, &limited, p, result);
+    if (mps__solvers_there(s, &limited))
+        MPS__TRY(mps__solvers_solve_there(s, &limited, p, result));
+    else
+        mps__solvers_run(s, &limited, p, result);
     mps_status status = status_of(result->reason);
     double poison = !mps__finite(p, problem->n);
     mps_ppe_total(problem, &(mps_exact_values){.maxima = 1, .maximum = &poison});

@@ -5,6 +5,7 @@
 
 #include "ppe/builtin.h"
 #include "base.h"
+#include "device.h"
 #include <mps/ppe.h>
 #include <mps/sim.h>
 
@@ -30,6 +31,11 @@ typedef struct mps__solvers {
     mps_solver_limits limits;
     bool again; /* of the present call's effort */
     bool ready; /* the preconditioner is set up for the present series */
+    /* of the step in progress; NULL: there is none. Solutions that can be found there are */
+    mps__device *device;
+    void *room; /* of the equation there */
+    size_t room_bytes;
+    const mps_ppe_problem *here; /* while the solution is found there: the equation on the host */
 } mps__solvers;
 
 /* How one matrix of a series is solved. */
@@ -51,7 +57,22 @@ mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *lim
  * MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                               mps_ppe_result *result);
+/* The text of the solution: with the pair in use, and with jacobi if auxgrid fails. */
+void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                      mps_ppe_result *result);
 mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
                                      const mps__effort *effort, double *p, mps_ppe_result *result);
+
+/* ---- on a device (solvers_device.c) ---- */
+
+/* Whether an equation is solved there. */
+bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
+/* Solve it there; `p` is here. MPS_E_NOMEM, MPS_E_PLUGIN */
+mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                                    mps_ppe_result *result);
+/* Set the preconditioner in use up for an equation there. Returns 0 or a reason of failure. */
+int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there);
+/* Give back what is there; before the device is detached. */
+void mps__solvers_leave(mps__solvers *s, mps__device *d);
 
 #endif

@@ -143,9 +143,8 @@ const mps__pass mps__pass_unknowns = {.name = "unknowns",
 
 /* ---- solution ---- */
 
-static mps_status solve(mps_stage *s)
+static mps_status solve_equation(mps__step *q)
 {
-    mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps_ppe_result result = {.struct_size = sizeof result};
     mps_status status = MPS_OK;
@@ -173,6 +172,16 @@ static mps_status solve(mps_stage *s)
     return q->load.what == MPS_LOAD_MASS && (status == MPS_OK || mps__body_carries(w))
                ? mps__step_mass(q)
                : MPS_OK;
+}
+
+/* The host has the equation and takes the pressures; between both the device solves where it can. */
+static mps_status solve(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    q->w->solvers.device = mps__twins_device(&q->w->host.twins);
+    const mps_status status = solve_equation(q);
+    q->w->solvers.device = NULL;
+    return status;
 }
 
 static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},

@@ -1,0 +1,100 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* The solution on a device: the equation goes there, and the pressures come back. */
+#include "solvers.h"
+
+enum { ROW, COL, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
+/* Arrays that matrices of a series have in common. */
+enum { SAME = COL + 1 };
+
+static bool is_jacobi(const mps_preconditioner_ops *pc)
+{
+    return pc->create == mps__preconditioner_jacobi.create;
+}
+
+static bool is_auxgrid(const mps_preconditioner_ops *pc)
+{
+    return pc->create == mps__preconditioner_auxgrid.create;
+}
+
+bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
+{
+    const bool known = s->use->create == mps__solver_pcg.create &&
+                       (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
+    return s->device && known && !e->ranks && !e->component && !e->law && e->n > 0;
+}
+
+/* Memory for the equation, kept from step to step. */
+static mps_status reserve(mps__solvers *s, size_t bytes)
+{
+    if (bytes <= s->room_bytes) return MPS_OK;
+    mps__device_give(s->device, s->room, s->room_bytes);
+    s->room_bytes = 0;
+    s->room = mps__device_room(s->device, bytes + bytes / 8);
+    if (!s->room) return MPS_E_NOMEM;
+    s->room_bytes = bytes + bytes / 8;
+    return MPS_OK;
+}
+
+/* @param there  out: the equation with the arrays there @param q  out: the pressures there */
+static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *p,
+                       mps_ppe_problem *there, double **q)
+{
+    const size_t n = (size_t)e->n, entries = (size_t)e->row[e->n], numbers = n * sizeof(double);
+    const void *const from[ARRAYS] = {e->row, e->col, e->val, e->diagonal, e->rhs, e->weight, p};
+    const size_t bytes[ARRAYS] = {(n + 1) * sizeof *e->row,
+                                  entries * sizeof *e->col,
+                                  entries * sizeof *e->val,
+                                  numbers,
+                                  numbers,
+                                  e->weight ? numbers : 0,
+                                  numbers};
+    size_t begin[ARRAYS + 1] = {0};
+    for (int k = 0; k < ARRAYS; k++) begin[k + 1] = begin[k] + ((bytes[k] + 255) & ~(size_t)255);
+    MPS__TRY(reserve(s, begin[ARRAYS]));
+    char *room = s->room;
+    for (int k = s->again ? SAME : 0; k < ARRAYS; k++)
+        mps__device_upload(s->device, room + begin[k], from[k], bytes[k]);
+    *there = *e;
+    there->row = (const int64_t *)(void *)(room + begin[ROW]);
+    there->col = (const int32_t *)(void *)(room + begin[COL]);
+    there->val = (const float *)(void *)(room + begin[VAL]);
+    there->diagonal = (const double *)(void *)(room + begin[DIAGONAL]);
+    there->rhs = (const double *)(void *)(room + begin[RHS]);
+    if (e->weight) there->weight = (const double *)(void *)(room + begin[WEIGHT]);
+    there->shift = there->x = NULL; /* neither solver nor jacobi looks at them */
+    there->parallel = &s->device->parallel;
+    *q = (double *)(void *)(room + begin[PRESSURE]);
+    return MPS_OK;
+}
+
+mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, double *p,
+                                    mps_ppe_result *result)
+{
+    mps_ppe_problem there;
+    double *q;
+    MPS__TRY(send(s, e, p, &there, &q));
+    s->here = e;
+    mps__solvers_run(s, &there, q, result);
+    s->here = NULL;
+    mps__device_download(s->device, p, q, (size_t)e->n * sizeof *p);
+    return mps__device_status(s->device);
+}
+
+int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
+{
+    if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
+    const int reason = s->pc->setup(s->pc_self, s->here);
+    return reason ? reason : mps__auxgrid_send(s->pc_self, s->device);
+}
+
+void mps__solvers_leave(mps__solvers *s, mps__device *d)
+{
+    if (s->use && s->use->create == mps__solver_pcg.create) mps__pcg_leave(s->use_self);
+    if (s->pc && is_jacobi(s->pc)) mps__jacobi_leave(s->pc_self);
+    if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_leave(s->pc_self);
+    if (s->spare_self) mps__jacobi_leave(s->spare_self);
+    if (s->room) mps__device_give(d, s->room, s->room_bytes);
+    s->room = NULL;
+    s->room_bytes = 0;
+    s->device = NULL;
+}
