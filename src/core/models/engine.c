@@ -100,6 +100,7 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
 
 void mps__twins_free(mps__twins *t)
 {
+    if (!t->channels) return; /* never initialised: the handle was not made */
     for (int32_t k = 0; k < ALL; k++) give_back(t, &t->list[k]);
     for (int32_t k = 0; k < MPS__BLOCKS; k++) give_back(t, &t->block[k]);
     for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
