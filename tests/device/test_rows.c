@@ -258,14 +258,10 @@ static void a_difference_is_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),
-        cmocka_unit_test(scans_of_any_size),
-        cmocka_unit_test(presets),
-        cmocka_unit_test(several_grids),
-        cmocka_unit_test(other_scenes),
-        cmocka_unit_test(all_models),
-        cmocka_unit_test(kernels_are_there),
-        cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),  cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(presets),           cmocka_unit_test(several_grids),
+        cmocka_unit_test(other_scenes),      cmocka_unit_test(all_models),
+        cmocka_unit_test(kernels_are_there), cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);

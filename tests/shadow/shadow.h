@@ -14,9 +14,9 @@ typedef struct shadow {
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
     bool refuses;                         /* there is no room */
-    int64_t fails_at, loses_at; /* launch, download that fails; 0: none */
-    char *arena, *arena_end;    /* memory of all rooms; NULL: there are none */
-    int32_t seen[SHADOW_LOOPS]; /* launches of each loop, by its name */
+    int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
+    char *arena, *arena_end;              /* memory of all rooms; NULL: there are none */
+    int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
     struct {
         char *begin;
         size_t bytes;
