@@ -63,6 +63,12 @@ static int refuse(const coefficients *k, const char *what, const char *why)
     return MPS_EXIT_USAGE;
 }
 
+static int no_memory(const coefficients *k)
+{
+    fprintf(stderr, "mps %s: %s: an allocation failed\n", k->c->verb, k->c->file[0]);
+    return MPS_EXIT_FAILED;
+}
+
 /* "surge roll". @return -1, or the exit code */
 static int read_degrees(coefficients *k)
 {
@@ -117,11 +123,14 @@ static int read_frequencies(coefficients *k)
     if (!tank) return code;
     k->count = mps_case_runs(tank) > FREQUENCIES_MOST ? FREQUENCIES_MOST + 1
                                                       : (int32_t)mps_case_runs(tank);
-    for (int32_t n = 0; n < k->count && n < FREQUENCIES_MOST; n++)
-        if (mps_case_sweep_get(tank, n, 0, got, sizeof got) == MPS_OK)
-            snprintf(k->frequency[n], sizeof k->frequency[n], "%s: %s", key,
-                     got + strcspn(got, "=") + 1);
+    mps_status status = MPS_OK;
+    for (int32_t n = 0; n < k->count && n < FREQUENCIES_MOST && status == MPS_OK; n++) {
+        status = mps_case_sweep_get(tank, n, 0, got, sizeof got);
+        snprintf(k->frequency[n], sizeof k->frequency[n], "%s: %s", key,
+                 got + strcspn(got, "=") + 1);
+    }
     mps_case_destroy(tank);
+    if (status != MPS_OK) return no_memory(k);
     return k->count > FREQUENCIES_MOST ? refuse(k, values, "more than 200 frequencies") : -1;
 }
 
@@ -272,7 +281,7 @@ static int run_all(coefficients *k)
 static int do_all(coefficients *k)
 {
     k->result = calloc((size_t)k->degrees * (size_t)k->count, sizeof *k->result);
-    if (!k->result) return MPS_EXIT_FAILED;
+    if (!k->result) return no_memory(k);
     for (int32_t i = 0; i < k->degrees * k->count; i++) k->result[i].omega = NAN;
     for (int32_t at = 0; at < k->degrees;
          at++) /* a shift has no spring, a turn none that is known yet */

@@ -335,6 +335,10 @@ if [ -n "$memory" ]; then
     starve 7 check small.yaml -o small.svg
     starve 97 run small.yaml -o starved --overwrite
     starve 29 sweep sweep.yaml -o whole_sweep -q
+    sed 's/^dp: .*/dp: 80 mm/; s/^motion: .*/motion: {centre: 0.5 0 m, surge: {amplitude: 9 mm, period: 1 T1}}/; /^sensors/d' small.yaml > forced.yaml
+    series=(coefficients forced.yaml --degrees "surge roll" --period "1.6 T1" --periods 4 -o coefficients -q)
+    expect 0 "" "$program" "${series[@]}"
+    starve 3 "${series[@]}"
 fi
 
 [ $failed -eq 0 ] && echo "mps says what is in its way"

@@ -176,6 +176,33 @@ static void drops(void **state)
                         "  j: {measure: pressure_jump, radius: 0.2 m}\n" END) > 20);
 }
 
+static void bodies(void **state)
+{
+    char path[600], all[2000];
+    (void)state;
+    write_file(kit_here(path, sizeof path, "faults_load.csv"),
+               "time[s],FX[N],MX[N m]\n0,0,0\n1,3,0.2\n2,-3,0.1\n");
+    snprintf(all, sizeof all,
+             "mps: 1\ndp: 50 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 40 %%}}]\n"
+             "body:\n  centre: 500 0 mm\n  forward: z\n  mass: 200 kg\n  inertia: 30 kg m2\n"
+             "  centre_of_mass: 500 -100 mm\n"
+             "  sway: {stiffness: 2 kN/m, damping: 5 %%}\n"
+             "  roll: {period: 1 T1, damping: 3 N m s/rad, load: {jonswap: {significant: 2 N m, "
+             "peak: 1.2 s}}}\n"
+             "  load: {file: %s, columns: {sway: FX, roll: MX}, ramp: 1 s}\n"
+             "sensors: {L: {load: momentum}, W: {load: walls}}\n" END,
+             path);
+    assert_true(of_text(all) > 20);
+    assert_int_equal(unlink(path), 0);
+    assert_true(of_text("mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 1.2 0.8 0.6 m}\n"
+                        "fill: [{water: {depth: 50 %}}]\n"
+                        "body:\n  mass: 900 kg\n  inertia: 60 70 80 1 2 3 kg m2\n  gravity: no\n"
+                        "  heave: {period: 0.9 s, damping: 10 %, load: [{amplitude: 3 N, omega: 4 "
+                        "rad/s, phase: 20 deg}, {amplitude: 2 N, frequency: 1 Hz, ramp: 3}]}\n"
+                        "  pitch: {stiffness: 3 kN m/rad}\n  yaw: {stiffness: 90 N m/rad}\n"
+                        "sensors: {L: {load: momentum}}\n" END) > 20);
+}
+
 static void sets(void **state)
 {
     char path[600], base[600];
@@ -194,8 +221,8 @@ static void sets(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(files), cmocka_unit_test(ships),
-                                       cmocka_unit_test(waves), cmocka_unit_test(drops),
-                                       cmocka_unit_test(sets)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(files),  cmocka_unit_test(ships),
+                                       cmocka_unit_test(waves),  cmocka_unit_test(drops),
+                                       cmocka_unit_test(bodies), cmocka_unit_test(sets)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

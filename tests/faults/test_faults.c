@@ -30,6 +30,17 @@ static const char TANK[] =
     "run: {until: 12 ms, dt: 4 ms, checkpoint: 5 ms, threads: 1}\n"
     "output: {rate: 250 Hz, frames: 2, pictures: 4 ms, trace: yes, profile: yes, page: 1 MB}\n";
 
+/* A body that carries a tank, with its columns and its load. */
+static const char BODY[] =
+    "mps: 1\ndp: 50 mm\ntank: {size: 0.6 0.4 m}\nfill: [{water: {depth: 0.2 m}}]\n"
+    "body:\n  centre: 300 0 mm\n  forward: z\n  mass: 100 kg\n  inertia: 10 kg m2\n"
+    "  sway: {stiffness: 2 kN/m, load: {amplitude: 30 N, period: 1 s}}\n  roll: {period: 1 s}\n"
+    "sensors: {L: {load: momentum}, W: {load: walls}, w: {wall: 0 0.1 m}}\n"
+    "run: {until: 12 ms, dt: 4 ms, checkpoint: 5 ms, threads: 1}\n"
+    "output: {rate: 250 Hz, frames: 0, trace: yes, page: 0 MB}\n";
+
+static const char *chosen = TANK;
+
 /* Files that the process has open. */
 static int open_files(void)
 {
@@ -70,7 +81,7 @@ static int32_t run(const char *folder, bool resume, int to, int32_t place, int32
     config.error = error;
     config.error_size = sizeof error;
     fault_arm(place, visit);
-    mps_status status = mps_case_read_text(TANK, sizeof TANK - 1, "faults.yaml", to == 20, further,
+    mps_status status = mps_case_read_text(chosen, strlen(chosen), "faults.yaml", to == 20, further,
                                            &c);
     if (status == MPS_OK) status = mps_case_job(c, &config, &job, &sim);
     if (status == MPS_OK) code = mps_job_run(job, sim);
@@ -190,8 +201,21 @@ static void runs_that_go_on(void **state)
     assert_true(in_turn(true, 1) > 100);
 }
 
+static void bodies(void **state)
+{
+    const char *failed;
+    (void)state;
+    chosen = BODY;
+    fault_forget();
+    if (run("whole", false, 12, -1, 1, &failed) != MPS_EXIT_OK) fail_msg("%s", said);
+    note_places();
+    assert_true(in_turn(false, 1) > 60);
+    assert_true(in_turn(false, 2) > 20);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(runs), cmocka_unit_test(runs_that_go_on)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(runs), cmocka_unit_test(runs_that_go_on),
+                                       cmocka_unit_test(bodies)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }
