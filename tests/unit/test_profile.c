@@ -136,6 +136,12 @@ static void list_of_the_presets(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A pass that has nothing to do is not run: no body carries the tank. */
+static int64_t calls_of(const mps_pass_info *p, int64_t steps)
+{
+    return strcmp(p->name, "body") == 0 ? 0 : steps;
+}
+
 /* They stand where they run, and their time is not that of the parts around them. */
 static void verbs_before_the_step(void **state)
 {
@@ -155,7 +161,7 @@ static void verbs_before_the_step(void **state)
     for (int k = 0; k < 6; k++) assert_string_equal(all.pass[k].name, first[k]);
     for (int32_t k = 0; k < all.count; k++) {
         sum += all.pass[k].seconds;
-        assert_int_equal(all.pass[k].calls, 4);
+        assert_int_equal(all.pass[k].calls, calls_of(&all.pass[k], 4));
     }
     ASSERT_NEAR(sum, measured, 1e-6 * measured);
     mps_sim_destroy(sim);
@@ -210,7 +216,8 @@ static void costs_add_up(void **state)
     double sum = 0;
     for (int32_t k = 0; k < all.count; k++) {
         const mps_pass_info *p = &all.pass[k];
-        if (p->calls != steps) fail_msg("%s: %lld calls", p->name, (long long)p->calls);
+        if (p->calls != calls_of(p, steps))
+            fail_msg("%s: %lld calls", p->name, (long long)p->calls);
         if (!(p->seconds >= 0 && p->bytes >= 0)) fail_msg("%s: %g s", p->name, p->seconds);
         sum += p->seconds;
     }
@@ -250,7 +257,7 @@ static void check_calls(mps_sim *sim, int64_t calls)
     const passes all = read_passes(sim);
     for (int32_t k = 0; k < all.count; k++) {
         const mps_pass_info *p = &all.pass[k];
-        if (p->calls != calls)
+        if (p->calls != calls_of(p, calls))
             fail_msg("%s: %lld calls instead of %lld", p->name, (long long)p->calls,
                      (long long)calls);
         if (calls == 0) assert_true(p->seconds == 0 && p->bytes == 0);
