@@ -50,9 +50,10 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
                                   numbers};
     size_t begin[ARRAYS + 1] = {0};
     for (int k = 0; k < ARRAYS; k++) begin[k + 1] = begin[k] + ((bytes[k] + 255) & ~(size_t)255);
+    const bool kept = s->again && begin[ARRAYS] <= s->room_bytes;
     MPS__TRY(reserve(s, begin[ARRAYS]));
     char *room = s->room;
-    for (int k = s->again ? SAME : 0; k < ARRAYS; k++)
+    for (int k = kept ? SAME : 0; k < ARRAYS; k++)
         mps__device_upload(s->device, room + begin[k], from[k], bytes[k]);
     *there = *e;
     there->row = (const int64_t *)(void *)(room + begin[ROW]);
