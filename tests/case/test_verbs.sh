@@ -306,6 +306,24 @@ silent "the second of several processes"
 expect 0 "" env PMI_SIZE=1 "$program" run small.yaml -o single -q
 [ -e none ] && fail "a refused run made a folder"
 
+# ---- coefficients: folders that are not what the runs left, lists, units
+sed 's/^dp: .*/dp: 80 mm/; s/^motion: .*/motion: {centre: 0.5 0 m, surge: {amplitude: 9 mm, period: 1 T1}}/; /^sensors/d' small.yaml > forced.yaml
+series=(coefficients forced.yaml --degrees "surge roll" --period "1.6 T1" --periods 4 -o coefficients -q)
+expect 0 "" "$program" "${series[@]}"
+expect 2 "more than 200 frequencies" "$program" "${series[@]}" --period "1.1 to 2 step 0.001 T1"
+cp -r coefficients kept_coefficients
+head -1 kept_coefficients/001/trace.csv > coefficients/001/trace.csv
+expect 1 "coefficients/001: trace.csv has no steps" "$program" "${series[@]}"
+sed '1s/liquid_a_surge/other/' kept_coefficients/001/trace.csv > coefficients/001/trace.csv
+expect 1 "coefficients/001: no harmonic of the motion can be fitted" "$program" "${series[@]}"
+rm -r coefficients/003 coefficients/tilt_roll.csv
+mkdir coefficients/tilt_roll.csv
+expect 2 "coefficients/tilt_roll.csv: Is a directory" "$program" "${series[@]}"
+rm -r coefficients
+mv kept_coefficients coefficients
+expect 0 "" "$program" coefficients forced.yaml --degrees sway --omega "200 deg/s" --amplitude "9 mm" --periods 3 -o by_omega -q
+grep -q '^3\.4906' by_omega/coefficients.csv || fail "200 deg/s: $(cat by_omega/coefficients.csv)"
+
 # ---- memory that runs out: at each allocation of a short command, at some of a long one. No crash; a failure has a message, and what is done is right
 starve() { # step, command ..
     local step=$1 k=1 code calls
@@ -335,9 +353,6 @@ if [ -n "$memory" ]; then
     starve 7 check small.yaml -o small.svg
     starve 97 run small.yaml -o starved --overwrite
     starve 29 sweep sweep.yaml -o whole_sweep -q
-    sed 's/^dp: .*/dp: 80 mm/; s/^motion: .*/motion: {centre: 0.5 0 m, surge: {amplitude: 9 mm, period: 1 T1}}/; /^sensors/d' small.yaml > forced.yaml
-    series=(coefficients forced.yaml --degrees "surge roll" --period "1.6 T1" --periods 4 -o coefficients -q)
-    expect 0 "" "$program" "${series[@]}"
     starve 3 "${series[@]}"
 fi
 
