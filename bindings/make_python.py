@@ -66,13 +66,20 @@ def numbers(all_: Interface) -> list[str]:
     return out + [f'    "{name}": ({value}, {meaning!r}),' for name, (value, meaning) in all_.statuses.items()] + ["}"]
 
 
-def structs(all_: Interface, names: set[str]) -> list[str]:
-    out = head("Structs and callbacks")
-    out += ["from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64,",
-            "                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)", "", ""]
+CTYPES = ["from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, c_double, c_float, c_int, c_int32, c_int64,",
+          "                    c_size_t, c_uint8, c_uint32, c_uint64, c_void_p)", ""]
+
+
+def types(all_: Interface, names: set[str]) -> list[str]:
+    """Structs without their members, which may point to each other, and callbacks."""
+    out = head("Names of structs, callbacks") + CTYPES + [""]
     for name in all_.opaque + [s.name for s in all_.structs]:
         out += [f"class {name}(Structure): ..."]
-    out += [""] + [f"{c.name} = {prototype(c, names)}" for c in all_.callbacks] + [""]
+    return out + [""] + [f"{c.name} = {prototype(c, names)}" for c in all_.callbacks]
+
+
+def structs(all_: Interface, names: set[str]) -> list[str]:
+    out = head("Members of structs") + CTYPES + ["from ._types import *  # noqa: F403", ""]
     for s in all_.structs:
         out += [f"{s.name}._fields_ = ["] + packed([f'("{m.name}", {ctype(m.type, names)}{shape(m, all_)})' for m in s.members]) + ["]"]
     return out
@@ -98,5 +105,6 @@ def functions(all_: Interface, names: set[str]) -> list[str]:
 def files(all_: Interface) -> dict[Path, str]:
     """The files and their texts."""
     names = {c.name for c in all_.callbacks}
-    parts = {"_numbers.py": numbers(all_), "_structs.py": structs(all_, names), "_layouts.py": layout(all_), "_functions.py": functions(all_, names)}
+    parts = {"_numbers.py": numbers(all_), "_types.py": types(all_, names), "_structs.py": structs(all_, names),
+             "_layouts.py": layout(all_), "_functions.py": functions(all_, names)}
     return {PACKAGE / name: "\n".join(lines) + "\n" for name, lines in parts.items()}
