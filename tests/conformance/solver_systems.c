@@ -229,37 +229,65 @@ kit_system *kit_lattice_system(const kit_lattice *o)
 
 /* ---- threads ---- */
 
-typedef struct kit_part {
+/* Threads that stay: a solution has thousands of loops, and a thread takes longer to begin than most
+ * of them. Loops of several callers go one after the other: `caller` is held during a loop, `lock`
+ * while the rest is looked at. */
+enum { MOST_THREADS = 64 };
+typedef struct team_state {
+    pthread_mutex_t caller, lock;
+    pthread_cond_t begun, ended;
     mps_part_fn body;
     void *argument;
-    int32_t part;
-} kit_part;
+    int32_t threads, parts, next, ended_parts;
+} team_state;
 
-static void *run_part(void *argument)
+static team_state team = {.caller = PTHREAD_MUTEX_INITIALIZER,
+                          .lock = PTHREAD_MUTEX_INITIALIZER,
+                          .begun = PTHREAD_COND_INITIALIZER,
+                          .ended = PTHREAD_COND_INITIALIZER};
+
+/* Do the next part; the lock is held before and after. */
+static void do_part(void)
 {
-    const kit_part *p = argument;
-    p->body(p->argument, p->part);
+    const int32_t part = team.next++;
+    pthread_mutex_unlock(&team.lock);
+    team.body(team.argument, part);
+    pthread_mutex_lock(&team.lock);
+    if (++team.ended_parts == team.parts) pthread_cond_signal(&team.ended);
+}
+
+static void *work(void *unused)
+{
+    (void)unused;
+    pthread_mutex_lock(&team.lock);
+    for (;;) {
+        while (team.next >= team.parts) pthread_cond_wait(&team.begun, &team.lock);
+        do_part();
+    }
     return NULL;
 }
 
 static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argument)
 {
-    enum { MOST = 64 };
-    pthread_t thread[MOST];
-    kit_part part[MOST];
-    bool started[MOST];
+    pthread_t thread;
     (void)user;
-    for (int32_t k = 0; k < parts; k++) {
-        if (k >= MOST) {
-            body(argument, k);
-            continue;
-        }
-        part[k] = (kit_part){body, argument, k};
-        started[k] = !pthread_create(&thread[k], NULL, run_part, &part[k]);
-        if (!started[k]) body(argument, k);
+    pthread_mutex_lock(&team.caller);
+    pthread_mutex_lock(&team.lock);
+    while (team.threads < parts - 1 && team.threads < MOST_THREADS &&
+           pthread_create(&thread, NULL, work, NULL) == 0) {
+        pthread_detach(thread);
+        team.threads++;
     }
-    for (int32_t k = 0; k < parts && k < MOST; k++)
-        if (started[k]) pthread_join(thread[k], NULL);
+    team.body = body;
+    team.argument = argument;
+    team.parts = parts;
+    team.next = team.ended_parts = 0;
+    pthread_cond_broadcast(&team.begun);
+    do_part(); /* the others are for the threads, so that they do run at once */
+    while (team.threads < parts - 1 && team.next < team.parts) do_part();
+    while (team.ended_parts < team.parts) pthread_cond_wait(&team.ended, &team.lock);
+    pthread_mutex_unlock(&team.lock);
+    pthread_mutex_unlock(&team.caller);
 }
 
 mps_parallel kit_parallel(int threads)
