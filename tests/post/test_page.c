@@ -177,6 +177,8 @@ static void constants_of_impacts(void **unused)
                {"{\"key\": \"impacts.threshold\", \"value\": \"11500 Pa\"}", "P1: 3 events"},
                {"{\"key\": \"impacts.sensors\", \"value\": \"P2; P1\"}", "P1: 4 events"},
                {"{\"key\": \"impacts.least_events\", \"value\": \"3\"}", "for screening"},
+               {"{\"key\": \"impacts.threshold\", \"value\": \"-1 Pa\"}",
+                "1 more began before the record or ended after it. A larger threshold may find"},
                {"{\"key\": \"impacts.share\", \"value\": \"2\"}",
                 "There are no statistics: 'share' is 2"}};
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 500};
