@@ -151,8 +151,8 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
                quantity(info.t_first, "s"), quantity(info.t_last, "s"));
         return;
     }
-    printf("%s: %lld events, %s a minute", name, (long long)info.events,
-           quantity(60 * info.rate, ""));
+    printf("%s: %lld event%s, %s a minute", name, (long long)info.events,
+           info.events == 1 ? "" : "s", quantity(60 * info.rate, ""));
     if (mps_impacts_highest(impacts, 0, &high) == MPS_OK)
         printf(", highest %s at %.5g s", quantity(high.peak, "Pa"), high.t);
     printf("\n  above %s%s, until %s below it, from %s to %s; %lld left out at the ends\n",
@@ -160,6 +160,10 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
            isnan(c->threshold) ? " (by deviations: set impacts.threshold)" : "",
            quantity(info.window, "s"), quantity(info.t_first, "s"), quantity(info.t_last, "s"),
            (long long)info.cut);
+    if (info.events == 0 && info.cut > 0)
+        printf("  it is above that where the record begins or ends: a larger impacts.threshold may "
+               "find "
+               "peaks\n");
     print_highest(impacts);
     print_value(impacts, &info, c);
 }

@@ -4,14 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t bits)
+bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t values, int32_t bits)
 {
     const size_t n = count > 0 ? (size_t)count : 1;
-    *c = (codec){.count = count, .dim = dim, .bits = bits};
+    *c = (codec){.count = count, .dim = dim, .values = values, .bits = bits};
     c->last = calloc(n * (size_t)dim, sizeof *c->last);
     c->before = calloc(n * (size_t)dim, sizeof *c->before);
-    c->value = calloc(n, 2);
-    c->plane = malloc(n * (size_t)(2 * dim + 2));
+    c->value = calloc(n, (size_t)values);
+    c->plane = malloc(n * (size_t)(2 * dim + values));
     return c->last && c->before && c->value && c->plane;
 }
 
@@ -101,12 +101,12 @@ bool mps__codec_frame(codec *c, const uint16_t *q, const unsigned char *value, c
     }
     for (int32_t d = 0; d < c->dim; d++) fill_coordinates(c, d, q + d * n);
     unsigned char *plane = c->plane + 2 * c->dim * n;
-    for (int64_t i = 0; i < 2 * n; i++) {
+    for (int64_t i = 0; i < c->values * n; i++) {
         plane[i] = (unsigned char)(value[i] - c->value[i]);
         c->value[i] = value[i];
     }
     c->frames++;
-    return deflate_block(&c->stream, c->plane, (size_t)n * (size_t)(2 * c->dim + 2), out);
+    return deflate_block(&c->stream, c->plane, (size_t)n * (size_t)(2 * c->dim + c->values), out);
 }
 
 bool mps__codec_end(codec *c, codec_bytes *out)

@@ -17,15 +17,15 @@ typedef struct codec_bytes {
 } codec_bytes;
 
 /* Particles of a film, frame by frame. A coordinate is an integer of `bits` bits; the last two frames predict it: 2 x - x before.
- * Frame in a block, each a plane of [count] bytes: low bytes of x, y (, z); high bytes of x, y (, z); pressure; speed. All are
+ * Frame in a block, each a plane of [count] bytes: low bytes of x, y (, z); high bytes of x, y (, z); pressure; speed (; pocket). All are
  * differences: coordinates from the prediction, modulo 2^bits, small ones of either sign as small numbers; values from the frame before. */
 typedef struct codec {
     int64_t count;
-    int32_t dim, bits;
+    int32_t dim, values, bits;
     int64_t frames;          /* so far */
     uint16_t *last, *before; /* [dim*count], plane by plane */
-    unsigned char *value;    /* [2*count] of the last frame */
-    unsigned char *plane;    /* [(2*dim + 2)*count] */
+    unsigned char *value;    /* [values*count] of the last frame */
+    unsigned char *plane;    /* [(2*dim + values)*count] */
     z_stream stream;
     bool open; /* a block has begun */
 } codec;
@@ -34,11 +34,11 @@ typedef struct codec {
 enum { CODEC_LEVEL = 6 };
 
 /* @return false without memory; codec_free() is allowed then, too */
-bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t bits);
+bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t values, int32_t bits);
 void mps__codec_free(codec *c);
 /* Append a frame to the block that is open, or begin one.
  * @param q      [dim*count], plane by plane, below 2^bits
- * @param value  [2*count], pressures, then speeds
+ * @param value  [values*count], pressures, then speeds, then what else there is
  * @return false without memory */
 bool mps__codec_frame(codec *c, const uint16_t *q, const unsigned char *value, codec_bytes *out);
 /* End the block. @return false without memory */

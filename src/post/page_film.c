@@ -26,7 +26,7 @@ static bool frame_room(film_frame *s, int64_t count)
 {
     s->count = count;
     if (count > s->capacity || !s->room) {
-        double *more = realloc(s->room, (size_t)(count + 1) * 11 * sizeof *more);
+        double *more = realloc(s->room, (size_t)(count + 1) * 12 * sizeof *more);
         if (!more) return false;
         s->room = more;
         s->capacity = count + 1;
@@ -38,7 +38,8 @@ static bool frame_room(film_frame *s, int64_t count)
     s->kind = next += s->capacity;
     s->phase = next += s->capacity;
     s->part = next += s->capacity;
-    s->id = next + s->capacity;
+    s->id = next += s->capacity;
+    s->pocket = next + s->capacity;
     return true;
 }
 
@@ -58,6 +59,9 @@ static mps_status frame_fill(const film *f, const vtp_frame *v, film_frame *s)
                                   v->piece[0].path, array[k].name, (int)array[k].width);
         status = mps__vtp_read(v, array[k].name, array[k].out);
     }
+    memset(s->pocket, 0, (size_t)s->count * sizeof *s->pocket);
+    if (status == MPS_OK && mps__vtp_width(v, "pocket") == 1) /* of gas.pocket alone */
+        status = mps__vtp_read(v, "pocket", s->pocket);
     return status;
 }
 
@@ -128,6 +132,7 @@ static bool take_scales(film *f, const film_frame *s, int64_t i, bool sampled)
     const double *u = s->u + 3 * i, u2 = u[0] * u[0] + u[1] * u[1] + u[2] * u[2];
     f->speed2 = fmax(f->speed2, u2);
     if ((int32_t)s->phase[i] >= f->phases) f->phases = (int32_t)s->phase[i] + 1;
+    if (s->pocket[i] > f->pockets) f->pockets = (int32_t)fmin(s->pocket[i], POCKETS_MOST);
     f->pressure.most = fmax(f->pressure.most, s->p[i]);
     return !sampled ||
            (mps__scale_take(&f->pressure, s->p[i]) && mps__scale_take(&f->speed, sqrt(u2)));

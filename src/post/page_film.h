@@ -11,12 +11,15 @@
 enum { FILM_FLUID = 0, FILM_WALL = 1 };
 /* "Phase" of walls that move in the tank. */
 enum { FILM_BODY = 255, FILM_PARTS = 4096 };
+/* Pockets have numbers of a byte; what comes after the last of these has its number. */
+enum { POCKETS_MOST = 255 };
 
 /* Particles of one frame. */
 typedef struct film_frame {
     int64_t count, capacity;
     double *x, *u;                        /* [3*count] */
     double *p, *kind, *phase, *part, *id; /* [count] */
+    double *pocket;                       /* [count]; 0: the frame has none, or there is none */
     double *room;
     char *parts;
 } film_frame;
@@ -53,7 +56,7 @@ typedef struct film {
     bool tank_moves;
     double lo[3], hi[3]; /* of what moves, in the tank's frame */
     double speed2, density;
-    int32_t phases;
+    int32_t phases, pockets; /* numbers of pockets go to `pockets` */
     page_scale pressure, speed;
 } film;
 

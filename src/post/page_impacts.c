@@ -141,8 +141,8 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
             (long long)info.unresolved, (long long)info.events, info.events == 1 ? "s" : "",
             info.events == 1 ? "s" : "");
     if (info.cut > 0)
-        fprintf(out, "<p>%lld more began before the record or ended after it.</p>\n",
-                (long long)info.cut);
+        fprintf(out, "<p>%lld more began before the record or ended after it.%s</p>\n",
+                (long long)info.cut, info.events == 0 ? " A larger threshold may find peaks." : "");
     if (info.missing > 0)
         fprintf(out, "<p>%lld samples are not known.</p>\n", (long long)info.missing);
     write_value(out, s->impacts, &info, c);

@@ -11,6 +11,7 @@ enum {
     FINE = 12,
     COARSE = 10,
     WALL_BITS = 16,
+    VALUES = 2, /* of every particle */
     WALLS_MOST = 20000,
     LEAST_SHOWN = 4000,
     BLOCKS = 24
@@ -35,7 +36,8 @@ typedef struct packing {
     double quantum; /* [m] */
     codec codec;
     uint16_t *q;          /* [dim*shown] */
-    unsigned char *value; /* [2*shown] */
+    unsigned char *value; /* [values*shown] */
+    int32_t values;       /* pressure, speed, and the pocket where there is one */
     film_frame frame;
     FILE *out;
     int64_t bytes, most, done; /* of base64; frames */
@@ -63,7 +65,7 @@ static void quantise(packing *p, const film_pose *pose)
     const film *f = p->film;
     const film_frame *s = &p->frame;
     const double top = (double)((1 << p->plan.bits) - 1);
-    memset(p->value, 0, 2 * (size_t)p->shown);
+    memset(p->value, 0, (size_t)p->values * (size_t)p->shown);
     for (int64_t i = 0; i < s->count; i++) {
         const int64_t place = mps__film_find(&f->moving, s->id[i]), at = place / p->plan.every;
         const double *x = s->x + 3 * i, *u = s->u + 3 * i;
@@ -76,6 +78,9 @@ static void quantise(packing *p, const film_pose *pose)
         p->value[at] = value_code(p, &f->pressure, s->p[i]);
         p->value[p->shown + at] = value_code(p, &f->speed,
                                              sqrt(u[0] * u[0] + u[1] * u[1] + u[2] * u[2]));
+        if (p->values > VALUES)
+            p->value[VALUES * p->shown + at] = (unsigned char)fmin(fmax(s->pocket[i], 0),
+                                                                   POCKETS_MOST);
     }
 }
 
@@ -175,8 +180,8 @@ static mps_status pack_walls(packing *p)
     codec c;
     codec_bytes bytes = {0};
     uint16_t *q = calloc((size_t)(3 * count + 1), sizeof *q);
-    unsigned char *value = calloc((size_t)(2 * count + 1), 1);
-    bool done = mps__codec_create(&c, count, f->dim, WALL_BITS) && q && value;
+    unsigned char *value = calloc((size_t)(VALUES * count + 1), 1);
+    bool done = mps__codec_create(&c, count, f->dim, VALUES, WALL_BITS) && q && value;
     for (int64_t k = 0, n = 0; done && k < f->wall.count; k++) {
         if (!wall_stands(f, k) || n++ % each != 0) continue;
         value[(n - 1) / each] = wall_of_tank(f, k);
@@ -253,8 +258,8 @@ static void write_head(const packing *p)
             "\"all\": %lld, \"bits\": %d, \"every\": %lld, \"frames\": %lld,\n",
             (int)f->dim, (long long)p->shown, (long long)f->moving.count, (int)p->plan.bits,
             (long long)p->plan.every, (long long)p->frames);
-    fprintf(out, "\"dp\": %.9g, \"quantum\": %.9g, \"phases\": %d,\n", f->dp, p->quantum,
-            (int)f->phases);
+    fprintf(out, "\"dp\": %.9g, \"quantum\": %.9g, \"phases\": %d, \"pockets\": %d,\n", f->dp,
+            p->quantum, (int)f->phases, (int)f->pockets);
     fprintf(out, "\"lo\": [%.9g, %.9g, %.9g], \"hi\": [%.9g, %.9g, %.9g],\n", f->lo[0], f->lo[1],
             f->lo[2], f->hi[0], f->hi[1], f->hi[2]);
     write_scale(out, "pressure", &f->pressure);
@@ -281,8 +286,9 @@ static mps_status packing_create(packing *p, const film *f, const plan *how, FIL
     p->frames = (f->run->frames + how->step - 1) / how->step;
     p->block = (p->frames + BLOCKS - 1) / BLOCKS;
     p->q = calloc((size_t)(f->dim * p->shown + 1), sizeof *p->q);
-    p->value = calloc((size_t)(2 * p->shown + 1), 1);
-    return mps__codec_create(&p->codec, p->shown, f->dim, how->bits) && p->q && p->value
+    p->values = VALUES + (f->pockets > 0);
+    p->value = calloc((size_t)(p->values * p->shown + 1), 1);
+    return mps__codec_create(&p->codec, p->shown, f->dim, p->values, how->bits) && p->q && p->value
                ? MPS_OK
                : no_memory(f);
 }

@@ -121,11 +121,16 @@ cp level.csv dry/probes.csv
 expect 2 "has no column of a pressure" "$program" stats dry
 printf 't[s],P[Pa],Q[Pa],R[m]\n0,0,0,1\n1,0,0,nan\n2,5,0,1\n3,0,0,1\n' > flat/probes.csv
 printf '{"t_end": 3, "inputs": [{"key": "impacts.threshold", "value": "1 Pa"}, {"key": "impacts.sensors", "value": "P"}, {"key": "impacts.window", "value": "0.1 s"}]}\n' > flat/summary.json
-expect 0 "P: 1 events" "$program" stats flat
+expect 0 "P: 1 event," "$program" stats flat
 grep -q "^Q" log && fail "stats: impacts.sensors of the case is not used"
 says "^sensors: P$"
 expect 0 "Q: 0 events" "$program" stats flat Q P
 says "no distribution is fitted: that needs 30 events$"
+printf 't[s],P[Pa]\n0,5\n1,7\n2,5\n3,6\n' > poor/probes.csv # the liquid at rest presses with more than the threshold
+cp flat/summary.json poor/
+expect 0 "P: 0 events" "$program" stats poor
+says "above 1 Pa, .*; 1 left out at the ends$"
+says "it is above that where the record begins or ends: a larger impacts.threshold may find peaks$"
 cp flat/probes.csv poor/
 printf '{"t_end": 3, "inputs": [{"key": "impacts.share", "value": "2"}]}\n' > poor/summary.json
 expect 2 "poor: 'share' is 2" "$program" stats poor

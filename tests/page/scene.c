@@ -83,7 +83,7 @@ static void make(scene *s, const char *folder, const char *name)
 
 int main(int argc, char **argv)
 {
-    scene flat = {.dim = 2, .fluid = 400, .frames = 30, .rows = 1500, .moves = true};
+    scene flat = {.dim = 2, .fluid = 400, .frames = 30, .rows = 1500, .moves = true, .pockets = 6};
     scene deep = {.dim = 3, .fluid = 700, .frames = 20, .rows = 300};
     scene chamfer = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true};
     scene plate = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true, .plate = true};

@@ -126,6 +126,18 @@ await test("colour, view, walls, zoom", flat, async (p) => {
         assert.match(await text(p, "#scale"), mode === "phase" ? /phase 0/ : new RegExp(`${mode} \\[`));
     }
     assert.ok(!differ(first, await pixels(p)));
+    await p.selectOption("#colour", "phase");
+    const phases = await pixels(p);
+    await p.selectOption("#colour", "pocket");
+    assert.ok(differ(phases, await pixels(p)), "pockets");
+    assert.deepEqual(await p.locator("#scale .chip").allInnerTexts(), ["beside no pocket", "pocket 1, 5", "pocket 2, 6", "pocket 3", "pocket 4"]);
+    await setFrame(p, 0); // which has none
+    const none = await pixels(p);
+    await p.selectOption("#colour", "phase");
+    assert.ok(!differ(none, await pixels(p)), "no pocket, no colour");
+    await p.selectOption("#colour", "pressure");
+    await setFrame(p, 8);
+    assert.ok(!differ(first, await pixels(p)));
     await p.selectOption("#seen", "lab");
     assert.ok(differ(first, await pixels(p)), "seen from the lab");
     await p.selectOption("#seen", "tank");
@@ -169,6 +181,18 @@ await test("a particle is picked where it is, with its id and values", flat, asy
     assert.equal(await p.locator("#marks .ring").count(), 1);
     await p.keyboard.press("Escape");
     assert.equal(await p.locator("#picked").textContent(), "");
+    await p.check("#marks-on");
+});
+
+await test("the pocket beside a particle is said", flat, async (p) => {
+    const k = 7, i = 125, t = k / 29, box = await p.locator("#canvas").boundingBox();
+    await setFrame(p, k);
+    await p.uncheck("#marks-on");
+    const phase = 0.37 * i, X = [1 + 0.9 * Math.sin(phase + 0.5 * t), 0.3 + 0.25 * Math.cos(1.7 * phase + 2 * t)];
+    const scale = Math.min(box.width / 2.3, box.height / 1.3);
+    await p.mouse.click(box.x + box.width / 2 + scale * (X[0] - 1), box.y + box.height / 2 - scale * (X[1] - 0.5));
+    assert.match(await text(p, "#picked"), new RegExp(`^Particle ${3 * (400 - i)}:.*, beside pocket ${(3 * i + k) % 7},`));
+    await p.keyboard.press("Escape");
     await p.check("#marks-on");
 });
 
@@ -250,6 +274,7 @@ await test("3-D: turns by pointer and keys, picks", deep, async (p) => {
     await p.keyboard.press("0");
     assert.ok(!differ(first, await pixels(p)));
     assert.equal(await p.locator("#frame-choice").isVisible(), false);
+    assert.equal(await p.locator("#colour option").count(), 3); // its frames have no pockets
 });
 
 // Pixels that walls cover, and those of them that they hide.

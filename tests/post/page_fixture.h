@@ -26,6 +26,7 @@ typedef struct scene {
     bool body;  /* the last four walls are a part of their own, which moves */
     bool front; /* the last eight walls stand before the liquid, in 3-D: of the tank, a chamfer */
     bool plate; /* these are a part of their own, which stands in the tank */
+    int32_t pockets; /* frames say which of so many pockets of gas a particle is beside */
     char error[512];
 } scene;
 
@@ -112,7 +113,13 @@ static inline void write_array(FILE *file, const void *data, uint64_t bytes)
     fwrite(data, 1, bytes, file);
 }
 
-static inline void write_frame_head(FILE *file, int32_t n, double t)
+/* Number of the pocket that a particle is beside; 0: none. */
+static inline int32_t pocket_of(const scene *s, int32_t i, int32_t k)
+{
+    return i >= 0 && k > 0 && i % 5 == 0 ? (3 * i + k) % (s->pockets + 1) : 0;
+}
+
+static inline void write_frame_head(FILE *file, const scene *s, int32_t n, double t)
 {
     static const struct {
         const char *type, *name;
@@ -120,7 +127,7 @@ static inline void write_frame_head(FILE *file, int32_t n, double t)
     } array[] = {{"Float32", "position", 3, 4}, {"Float32", "velocity", 3, 4},
                  {"Float32", "pressure", 1, 4}, {"UInt8", "kind", 1, 1},
                  {"UInt8", "phase", 1, 1},      {"Int32", "part", 1, 4},
-                 {"Int64", "id", 1, 8}};
+                 {"Int64", "id", 1, 8},         {"Float32", "pocket", 1, 4}};
     uint64_t offset = 0;
     fprintf(
         file,
@@ -132,7 +139,7 @@ static inline void write_frame_head(FILE *file, int32_t n, double t)
         "</DataArray></FieldData>\n<Piece "
         "NumberOfPoints=\"%d\" NumberOfVerts=\"0\">\n<Points>\n",
         t, (int)n);
-    for (int k = 0; k < 7; k++) {
+    for (int k = 0; k < (s->pockets ? 8 : 7); k++) {
         fprintf(file,
                 "<DataArray type=\"%s\" Name=\"%s\" NumberOfComponents=\"%d\" format=\"appended\" "
                 "offset=\"%llu\"/>\n%s",
@@ -155,7 +162,7 @@ static inline void write_frame(const scene *s, int32_t k)
     snprintf(name, sizeof name, "frames/frames_%06d.vtp", (int)k);
     path_of(s, name, path);
     FILE *file = fopen(path, "wb");
-    float *x = calloc((size_t)n * 7, sizeof *x), *u = x + 3 * n, *p = u + 3 * n;
+    float *x = calloc((size_t)n * 8, sizeof *x), *u = x + 3 * n, *p = u + 3 * n, *pocket = p + n;
     unsigned char *kind = calloc((size_t)n, 2), *phase = kind + n;
     int32_t *part = calloc((size_t)n, sizeof *part);
     int64_t *id = calloc((size_t)n, sizeof *id);
@@ -167,11 +174,12 @@ static inline void write_frame(const scene *s, int32_t k)
         for (int d = 0; d < 3; d++) x[3 * place + d] = (float)X[d];
         u[3 * place] = i < 0 ? 0 : (float)(0.01 * (i % 100));
         p[place] = pressure_of(i, k);
+        pocket[place] = (float)pocket_of(s, i, k);
         kind[place] = i < 0;
         part[place] = i < 0 ? (s->body && i < -(WALLS - 4)) || (s->plate && i < -(WALLS - 8)) : -1;
         id[place] = id_of(s, i);
     }
-    write_frame_head(file, n, k);
+    write_frame_head(file, s, n, k);
     write_array(file, x, (uint64_t)n * 12);
     write_array(file, u, (uint64_t)n * 12);
     write_array(file, p, (uint64_t)n * 4);
@@ -179,6 +187,7 @@ static inline void write_frame(const scene *s, int32_t k)
     write_array(file, phase, (uint64_t)n);
     write_array(file, part, (uint64_t)n * 4);
     write_array(file, id, (uint64_t)n * 8);
+    if (s->pockets) write_array(file, pocket, (uint64_t)n * 4);
     assert_int_equal(fclose(file), 0);
     free(x);
     free(kind);
@@ -330,9 +339,10 @@ static inline unsigned char *unpacked(const char *text, size_t most, size_t *siz
 
 /* Add the frames of a block to what came before: q is [frames][dim][count]. @return frames in the block */
 static inline int32_t undo_block(const unsigned char *raw, size_t size, int32_t count, int32_t dim,
-                                 int32_t bits, int32_t before, int32_t *q, unsigned char *value)
+                                 int32_t values, int32_t bits, int32_t before, int32_t *q,
+                                 unsigned char *value)
 {
-    const size_t step = (size_t)count * (size_t)(2 * dim + 2);
+    const size_t step = (size_t)count * (size_t)(2 * dim + values);
     const int32_t frames = (int32_t)(size / step);
     assert_int_equal(size % step, 0);
     for (int32_t k = before; k < before + frames; k++, raw += step)
@@ -346,10 +356,10 @@ static inline int32_t undo_block(const unsigned char *raw, size_t size, int32_t 
                                             : 0;
                 q[at] = (guess + difference) & ((1 << bits) - 1);
             }
-            for (int32_t v = 0; v < 2; v++) {
-                const int32_t at = (2 * k + v) * count + i;
+            for (int32_t v = 0; v < values; v++) {
+                const int32_t at = (values * k + v) * count + i;
                 value[at] = (unsigned char)(raw[(2 * dim + v) * count + i] +
-                                            (k ? value[at - 2 * count] : 0));
+                                            (k ? value[at - values * count] : 0));
             }
         }
     return frames;

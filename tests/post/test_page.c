@@ -28,7 +28,7 @@ static void vector_in(const char *text, const char *key, double out[3])
 
 /* All frames of the film in a page. */
 typedef struct reel {
-    int32_t count, dim, bits, frames;
+    int32_t count, dim, values, bits, frames;
     double lo[3], quantum, p_hi;
     int32_t *q;
     unsigned char *value, *ids;
@@ -42,20 +42,21 @@ static reel reel_read(const char *page)
     assert_non_null(head);
     r.count = (int32_t)number_in(head, "count");
     r.dim = (int32_t)number_in(head, "dim");
+    r.values = number_in(head, "pockets") > 0 ? 3 : 2;
     r.bits = (int32_t)number_in(head, "bits");
     r.frames = (int32_t)number_in(head, "frames");
     r.quantum = number_in(head, "quantum");
     r.p_hi = number_in(strstr(head, "\"pressure\": {"), "hi");
     vector_in(head, "lo", r.lo);
-    const size_t n = (size_t)r.count, most = n * (size_t)(r.frames * (2 * r.dim + 2));
+    const size_t n = (size_t)r.count, most = n * (size_t)(r.frames * (2 * r.dim + r.values));
     r.q = calloc(n * (size_t)(r.frames * r.dim), sizeof *r.q);
-    r.value = calloc(n * (size_t)(2 * r.frames), 1);
+    r.value = calloc(n * (size_t)(r.values * r.frames), 1);
     assert_true(r.q && r.value);
     int32_t done = 0;
     while ((block = strstr(block, "class=\"film-block\"")) != NULL) {
         block = strchr(block, '>') + 1;
         unsigned char *raw = unpacked(block, most, &size);
-        done += undo_block(raw, size, r.count, r.dim, r.bits, done, r.q, r.value);
+        done += undo_block(raw, size, r.count, r.dim, r.values, r.bits, done, r.q, r.value);
         free(raw);
     }
     assert_int_equal(done, r.frames);
@@ -88,18 +89,22 @@ static void check_reel(const scene *s, const reel *r)
                 const double x = r->lo[d] + r->quantum * r->q[(k * r->dim + d) * r->count + place];
                 assert_true(fabs(x - X[d]) <= 0.5 * r->quantum + 2e-6);
             }
-            const int code = r->value[2 * k * r->count + place];
+            const int code = r->value[r->values * k * r->count + place];
             const double p = pressure_of(i, k);
             assert_true(code >= 1);
             if (p <= r->p_hi && code <= 224)
                 assert_true(fabs(r->p_hi * (code - 1) / 223 - p) <= 0.51 * r->p_hi / 223);
+            if (r->values > 2)
+                assert_int_equal(r->value[(r->values * k + 2) * r->count + place],
+                                 (int32_t)fmin(pocket_of(s, i, k), 255));
         }
     }
 }
 
-static void film_of(int32_t dim, bool moves)
+static void film_of(int32_t dim, bool moves, int32_t pockets)
 {
-    scene s = {.dim = dim, .fluid = 300, .frames = 13, .rows = 500, .moves = moves};
+    scene s = {
+        .dim = dim, .fluid = 300, .frames = 13, .rows = 500, .moves = moves, .pockets = pockets};
     mps_page_info info;
     size_t size = 0;
     scene_create(&s);
@@ -110,6 +115,7 @@ static void film_of(int32_t dim, bool moves)
     assert_int_equal(info.particles, 300);
     assert_string_equal(info.left_out, "");
     reel r = reel_read(page);
+    assert_int_equal(r.values, pockets ? 3 : 2);
     check_reel(&s, &r);
     assert_true(moves == (strstr(page, "\"poses\": []") == NULL));
     reel_free(&r);
@@ -120,9 +126,10 @@ static void film_of(int32_t dim, bool moves)
 static void film_comes_back(void **unused)
 {
     (void)unused;
-    film_of(2, false);
-    film_of(2, true);
-    film_of(3, true);
+    film_of(2, false, 0);
+    film_of(2, true, 6);
+    film_of(3, true, 0);
+    film_of(3, false, 300); /* numbers above 255 are 255 */
 }
 
 /* Sections in their order, escaped texts, no address of a network. */
@@ -170,6 +177,8 @@ static void constants_of_impacts(void **unused)
                {"{\"key\": \"impacts.threshold\", \"value\": \"11500 Pa\"}", "P1: 3 events"},
                {"{\"key\": \"impacts.sensors\", \"value\": \"P2; P1\"}", "P1: 4 events"},
                {"{\"key\": \"impacts.least_events\", \"value\": \"3\"}", "for screening"},
+               {"{\"key\": \"impacts.threshold\", \"value\": \"-1 Pa\"}",
+                "1 more began before the record or ended after it. A larger threshold may find"},
                {"{\"key\": \"impacts.share\", \"value\": \"2\"}",
                 "There are no statistics: 'share' is 2"}};
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 500};

@@ -8,6 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+#include <sys/stat.h>
 
 enum { CSV_BYTES = 1 << 30, CSV_ROOM = 1024 };
 
@@ -17,7 +18,11 @@ static char *read_file(mps_case *c, const tree_node *at, const char *path)
 {
     FILE *file = fopen(path, "rb");
     long size = -1;
-    if (file && fseek(file, 0, SEEK_END) == 0) size = ftell(file);
+    struct stat s;
+    if (file && fstat(fileno(file), &s) == 0 && S_ISDIR(s.st_mode)) /* it opens, and seems huge */
+        errno = EISDIR;
+    else if (file && fseek(file, 0, SEEK_END) == 0)
+        size = ftell(file);
     char *text = size >= 0 && size < CSV_BYTES ? malloc((size_t)size + 1) : NULL;
     const bool whole = text && fseek(file, 0, SEEK_SET) == 0 &&
                        fread(text, 1, (size_t)size, file) == (size_t)size;

@@ -190,8 +190,6 @@ static void fill_wave(filling *f)
               .phase = mps__read_number(b->c, node, "phase", 0)};
     const double length = mps__read_number(b->c, node, "length", NAN);
     w.k = 2 * acos(-1.0) / length;
-    if (!mps__case_failed(b->c) && !(isfinite(w.level + w.amplitude) && length > 0))
-        say(f, "wave", "needs level, amplitude and length");
     if (!mps__case_failed(b->c)) done(f, mps_fill_add(b->sim, f->phase, below_wave, &w, NULL));
 }
 

@@ -156,7 +156,8 @@ static const char *check(const mps_measure *m, const measure_kind *kind, int32_t
     if (!(m->smoothing >= 1 && m->smoothing <= 3)) return "smoothing must be 1 to 3 spacings";
     if (kind->value == mps__measure_jump && !(m->radius > 0)) return "radius must be > 0";
     for (int d = 0; d < dim; d++)
-        if (!isfinite(m->box[d]) || m->box[d] > m->box[3 + d]) return "box must have lo <= hi";
+        if (!isfinite(m->box[d]) || !isfinite(m->box[3 + d]) || m->box[d] > m->box[3 + d])
+            return "box must have lo <= hi";
     return NULL;
 }
 

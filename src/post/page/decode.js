@@ -31,21 +31,21 @@ export async function unpackTimes(t, points) {
     return Array.from({length: points}, (_, i) => view.getFloat64(8 * i, true));
 }
 
-// Particles of all frames so far. place: planes x, y (, z) of each frame; value: pressures, then speeds of each frame, 0: not there.
+// Particles of all frames so far. place: planes x, y (, z) of each frame; value: pressures (0: not there), speeds (, pockets) of each frame.
 export class Frames {
-    constructor(count, dim, bits, frames) {
-        Object.assign(this, {count, dim, bits, frames, ready: 0});
+    constructor(count, dim, bits, frames, values = 2) {
+        Object.assign(this, {count, dim, bits, frames, values, ready: 0});
         this.place = new Uint16Array(frames * dim * count);
-        this.value = new Uint8Array(frames * 2 * count);
+        this.value = new Uint8Array(frames * values * count);
     }
 
     // The frames of a block, unpacked.
     add(raw) {
-        const {count, dim} = this, size = (2 * dim + 2) * count;
+        const {count, dim, values} = this, size = (2 * dim + values) * count;
         for (let at = 0; at + size <= raw.length && this.ready < this.frames; at += size) {
             for (let d = 0; d < dim; d++) this.addPlane(raw, at + d * count, at + (dim + d) * count, d);
-            const now = this.ready * 2 * count, before = now - 2 * count, from = at + 2 * dim * count;
-            for (let i = 0; i < 2 * count; i++) {
+            const now = this.ready * values * count, before = now - values * count, from = at + 2 * dim * count;
+            for (let i = 0; i < values * count; i++) {
                 this.value[now + i] = raw[from + i] + (this.ready ? this.value[before + i] : 0);
             }
             this.ready++;

@@ -2,7 +2,7 @@
 // Puts the page together: film, curves, sketch, one time for all.
 import { Frames, fromBase64, inflate } from "./decode.js";
 import { Charts, nearest, prefix, quantity, readGroups, rounded } from "./curves.js";
-import { View, kinds } from "./view.js";
+import { View, kinds, rooms } from "./view.js";
 
 const byId = (id) => document.getElementById(id), json = (id) => JSON.parse(byId(id)?.textContent ?? "null");
 const state = {charts: null, view: null, frame: 0, playing: false, picked: -1, data: json("film-data"), pace: 1};
@@ -105,6 +105,18 @@ function drawScale() {
         }
         return;
     }
+    if (mode === "pocket") {
+        for (let c = 0; c < Math.min(5, data.pockets + 1); c++) { // colours in turn, by number
+            const chip = document.createElement("span"), numbers = [];
+            for (let n = c; c > 0 && n <= data.pockets && numbers.length < 3; n += 4) numbers.push(n);
+            chip.className = "chip";
+            chip.style.setProperty("--chip", css(c ? rooms[c - 1] : kinds[0]));
+            chip.textContent = c ? `pocket ${numbers.join(", ")}${data.pockets >= c + 12 ? " .." : ""}` : "beside no pocket";
+            room.append(chip);
+        }
+        view.canvas.setAttribute("aria-label", `Film of ${data.count} particles, coloured by the pocket of gas beside them`);
+        return;
+    }
     const s = data[mode], unit = mode === "speed" ? "m/s" : "Pa", label = document.createElement("b"), bars = document.createElement("div");
     const [factor, p] = prefix(Math.max(Math.abs(s.lo), s.hi), unit);
     label.textContent = `${mode} [${p}${unit}]`;
@@ -143,10 +155,11 @@ function drawMarks() {
         }
     }
     if (state.picked >= 0) {
-        const X = view.place(state.picked), p = view.present(state.picked) ? at(X) : null, k = view.frame * 2 * data.count + state.picked, {value} = view.frames;
+        const X = view.place(state.picked), p = view.present(state.picked) ? at(X) : null, {value, values} = view.frames, k = view.frame * values * data.count + state.picked;
         if (p) out.push(`<circle class="ring" cx="${p[0]}" cy="${p[1]}" r="9"/>`);
+        const beside = values > 2 && value[k + 2 * data.count] > 0 ? `, beside pocket ${value[k + 2 * data.count]}` : "";
         const name = state.phase[state.picked] === 255 ? "Part of a body" : `Particle ${state.ids[state.picked]}`;
-        byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
+        byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}${beside}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
     } else byId("picked").textContent = "";
     svg.setAttribute("viewBox", `0 0 ${view.canvas.width / scale} ${view.canvas.height / scale}`); // on paper it has another size
     svg.innerHTML = out.join("");
@@ -226,7 +239,7 @@ function bindControls() {
     on("on", "click", () => { setPlaying(false); setFrame(state.frame + 1); });
     on("time", "input", (e) => { setPlaying(false); setFrame(Number(e.target.value)); });
     on("colour", "change", (e) => {
-        view.mode = ["pressure", "speed", "phase"].indexOf(e.target.value);
+        view.mode = ["pressure", "speed", "phase", "pocket"].indexOf(e.target.value);
         drawScale();
         view.draw();
     });
@@ -246,7 +259,7 @@ async function unpack(element, frames) {
 }
 
 async function openFilm() {
-    const {data} = state, walls = json("walls"), wallFrames = new Frames(walls.count, data.dim, walls.bits, 1), frames = new Frames(data.count, data.dim, data.bits, data.frames);
+    const {data} = state, walls = json("walls"), wallFrames = new Frames(walls.count, data.dim, walls.bits, 1), frames = new Frames(data.count, data.dim, data.bits, data.frames, data.pockets > 0 ? 3 : 2);
     const blocks = [...document.querySelectorAll(".film-block")], raw = await inflate(fromBase64(document.querySelector(".film-ids").textContent));
     state.ids = new Uint32Array(new Uint8Array(raw.subarray(0, 4 * data.count)).buffer);
     state.phase = raw.subarray(4 * data.count);
@@ -271,6 +284,7 @@ async function openFilm() {
     if (!data.poses.length) byId("frame-choice").hidden = true;
     byId("time").max = data.frames - 1;
     state.view.after = drawMarks;
+    if (data.pockets > 0) byId("colour").add(new Option("pocket of gas", "pocket"));
     fillPaces();
     bindPointer();
     bindKeys();

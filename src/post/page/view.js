@@ -9,6 +9,7 @@ layout(location = 2) in float pz;
 layout(location = 3) in float pressure;
 layout(location = 4) in float speed;
 layout(location = 5) in float phase;
+layout(location = 6) in float pocket;
 uniform vec3 lo, shift;
 uniform float quantum, radius, pixels;
 uniform mat3 turn;
@@ -16,6 +17,7 @@ uniform mat4 camera;
 uniform int mode, walls;
 uniform vec3 map[15];
 uniform vec3 kinds[5];
+uniform vec3 rooms[4];
 uniform vec3 wallColour;
 uniform float wallAlpha;
 out vec4 colour;
@@ -34,7 +36,8 @@ void main() {
     bool body = walls == 1 || kind == 255;
     if (walls == 0 && pressure < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // not in this frame
     float code = mode == 1 ? speed : pressure;
-    vec3 c = mode == 2 ? kinds[min(kind, 3)] : shade(mode == 1 ? 0 : kind % 3, (code - 1.0) / 223.0);
+    int room = int(pocket + 0.5);
+    vec3 c = mode == 3 && room > 0 ? rooms[(room - 1) % 4] : mode >= 2 ? kinds[min(kind, 3)] : shade(mode == 1 ? 0 : kind % 3, (code - 1.0) / 223.0);
     colour = body ? vec4(wallColour, wallAlpha) : vec4(c, 1.0);
 }`;
 const fragmentText = `#version 300 es
@@ -101,7 +104,7 @@ export class View {
         Object.assign(this, {canvas, gl, data, walls, frames, wallFrames, box, frame: 0, mode: 0, seen: "tank", showWalls: true});
         this.points = program(gl, vertexText, fragmentText);
         this.lines = program(gl, lineVertex, lineFragment);
-        this.dots = this.makeBuffers(frames.count, phase);
+        this.dots = this.makeBuffers(frames.count, phase, frames.values);
         if (data.dim === 3) this.sortWalls();
         else {
             this.wallDots = this.makeBuffers(wallFrames.count, new Uint8Array(wallFrames.count));
@@ -112,7 +115,7 @@ export class View {
         this.whole();
     }
 
-    makeBuffers(count, phase) {
+    makeBuffers(count, phase, values = 2) {
         const {gl, data} = this, array = gl.createVertexArray(), place = gl.createBuffer(), value = gl.createBuffer(), kind = gl.createBuffer();
         gl.bindVertexArray(array);
         gl.bindBuffer(gl.ARRAY_BUFFER, place);
@@ -122,10 +125,10 @@ export class View {
             gl.vertexAttribPointer(d, 1, gl.UNSIGNED_SHORT, false, 0, d * count * 2);
         }
         gl.bindBuffer(gl.ARRAY_BUFFER, value);
-        gl.bufferData(gl.ARRAY_BUFFER, Math.max(1, count) * 2, gl.DYNAMIC_DRAW);
-        for (let k = 0; k < 2; k++) {
-            gl.enableVertexAttribArray(3 + k);
-            gl.vertexAttribPointer(3 + k, 1, gl.UNSIGNED_BYTE, false, 0, k * count);
+        gl.bufferData(gl.ARRAY_BUFFER, Math.max(1, count) * values, gl.DYNAMIC_DRAW);
+        for (const [k, place] of [3, 4, 6].slice(0, values).entries()) { // without pockets the last is 0
+            gl.enableVertexAttribArray(place);
+            gl.vertexAttribPointer(place, 1, gl.UNSIGNED_BYTE, false, 0, k * count);
         }
         gl.bindBuffer(gl.ARRAY_BUFFER, kind);
         gl.bufferData(gl.ARRAY_BUFFER, phase, gl.STATIC_DRAW);
@@ -135,11 +138,11 @@ export class View {
     }
 
     fill(buffers, frames, k) {
-        const {gl} = this, n = frames.count, dim = frames.dim;
+        const {gl} = this, n = frames.count, {dim, values} = frames;
         gl.bindBuffer(gl.ARRAY_BUFFER, buffers.place);
         gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames.place.subarray(k * dim * n, (k + 1) * dim * n));
         gl.bindBuffer(gl.ARRAY_BUFFER, buffers.value);
-        gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames.value.subarray(k * 2 * n, (k + 1) * 2 * n));
+        gl.bufferSubData(gl.ARRAY_BUFFER, 0, frames.value.subarray(k * values * n, (k + 1) * values * n));
     }
 
     // Walls of the tank apart from what stands in it, which alone may hide the liquid. A box shows its edges; the walls of other tanks are faint, with their sharp edges.
@@ -159,7 +162,7 @@ export class View {
 
     // Buffers of some of the walls.
     makeDots(chosen) {
-        const {wallFrames} = this, n = chosen.length, kept = {count: n, dim: 3, place: new Uint16Array(3 * n), value: new Uint8Array(2 * n)};
+        const {wallFrames} = this, n = chosen.length, kept = {count: n, dim: 3, values: 2, place: new Uint16Array(3 * n), value: new Uint8Array(2 * n)};
         chosen.forEach((i, k) => { for (let d = 0; d < 3; d++) kept.place[d * n + k] = wallFrames.place[d * wallFrames.count + i]; });
         const dots = this.makeBuffers(n, new Uint8Array(Math.max(1, n)));
         this.fill(dots, kept, 0);
@@ -264,7 +267,7 @@ export class View {
     }
 
     present(i) {
-        return this.frames.value[this.frame * 2 * this.frames.count + i] > 0;
+        return this.frames.value[this.frame * this.frames.values * this.frames.count + i] > 0;
     }
 
     // The particle nearest to a pixel, in 3-D the foremost of those under it; -1: none.
@@ -312,6 +315,7 @@ export class View {
         gl.uniform1i(at.solid, solid ? 1 : 0);
         gl.uniform3fv(at.map, data.maps.flat(2));
         gl.uniform3fv(at.kinds, kinds.flat());
+        gl.uniform3fv(at.rooms, rooms.flat());
         gl.uniform3fv(at.wallColour, [0.55, 0.55, 0.58]);
         gl.uniform1f(at.wallAlpha, 1);
         this.drawDots(this.dots, data, 0, this.radius());
@@ -380,3 +384,5 @@ export class View {
 
 // Colours of phases: water, gas, two others.
 export const kinds = [[0.13, 0.44, 0.71], [0.83, 0.77, 0.94], [0.86, 0.37, 0.09], [0.30, 0.60, 0.35], [0.55, 0.55, 0.58]];
+// Colours of pockets of gas, in turn.
+export const rooms = [[0.86, 0.37, 0.09], [0.93, 0.73, 0.13], [0.45, 0.18, 0.55], [0.20, 0.62, 0.42]];
