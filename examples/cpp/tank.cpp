@@ -62,7 +62,7 @@ try {
             if (kind[i][0] == MPS_FLUID) highest = std::fmax(highest, x[i][1]);
     }
     std::printf("largest pressure %.0f Pa, highest particle %.3f m\n", largest, highest);
-    sim.frames(".", "tank").write();
+    sim.frames(".", "tank_frames").write();
     return 0;
 } catch (const mps::error &e) {
     std::fprintf(stderr, "%s: %s\n", e.name(), e.what());

@@ -70,7 +70,7 @@ program tank
     call mps_check(sim, status)
     call mps_check(sim, mps_probe_read(sim, wall, pressure))
     print '(a, f8.1, a)', 'pressure ', pressure(1), ' Pa'
-    call mps_check(sim, mps_frames_open(sim, '.' // c_null_char, 'tank' // c_null_char, 0, frames))
+    call mps_check(sim, mps_frames_open(sim, '.' // c_null_char, 'tank_frames' // c_null_char, 0, frames))
     call mps_check(sim, mps_frames_write(frames))
     call mps_frames_close(frames)
     call mps_sim_destroy(sim)

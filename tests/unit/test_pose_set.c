@@ -145,6 +145,37 @@ static void starts_once(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A tank of a tenth of its liquid's added mass, moved by the load of the last step alone: the error names the coupling. A tank that is
+ * thrown about by other reasons than its load is moved by a function. */
+static void diverges(void **state)
+{
+    (void)state;
+    for (int by_poses = 0; by_poses < 2; by_poses++) {
+        const double dt = 2e-3, mass = 2;
+        double x = 0, v = 1e-2, a = 0;
+        mps_sim *sim = half_full(MPS_START_AT_REST);
+        mps_load load;
+        mps_motion_state pose = swing(0);
+        mps_status status = MPS_OK;
+        assert_int_equal(mps_load_init(&load, sizeof load), MPS_OK);
+        ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_FORCE));
+        if (!by_poses) ASSERT_OK(sim, mps_motion_callback_set(sim, follow, &pose));
+        for (int k = 1; status >= 0 && k < 200; k++) {
+            v += dt * a;
+            x += dt * v;
+            pose.value[MPS_MOVE_X] = x;
+            if (by_poses) ASSERT_OK(sim, mps_motion_pose_set(sim, k * dt, &pose));
+            status = mps_step(sim, dt, NULL);
+            if (status >= 0) ASSERT_OK(sim, mps_load_get(sim, NULL, &load));
+            a = load.force[0] / mass;
+        }
+        assert_int_equal(status, MPS_E_DIVERGED);
+        const char *said = strstr(mps_sim_error(sim), "coupling: mps_motion_pose_set()");
+        assert_true((said != NULL) == by_poses);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* What is refused leaves the motion as it is. */
 static void refused(void **state)
 {
@@ -171,9 +202,9 @@ static void refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(meets_poses),
-                                       cmocka_unit_test(same_as_callback),
-                                       cmocka_unit_test(last_one_counts),
-                                       cmocka_unit_test(starts_once), cmocka_unit_test(refused)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(meets_poses),     cmocka_unit_test(same_as_callback),
+        cmocka_unit_test(last_one_counts), cmocka_unit_test(starts_once),
+        cmocka_unit_test(diverges),        cmocka_unit_test(refused)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,12 +185,42 @@ static void names_in_messages(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A force that lags says so, once, to a host that moves the tank by poses and does not watch its load. */
+static void forces_that_lag(void **state)
+{
+    static const double average[] = {MPS_AVERAGE_AUTO, 0.01, 0, MPS_AVERAGE_AUTO, MPS_AVERAGE_AUTO};
+    (void)state;
+    for (int k = 0; k < 5; k++) {
+        mps_sim *sim = logging(2);
+        mps_probe p;
+        mps_motion_state pose;
+        int32_t id;
+        assert_int_equal(mps_probe_init(&p, sizeof p), MPS_OK);
+        assert_int_equal(mps_motion_state_init(&pose, sizeof pose), MPS_OK);
+        fill_depth(sim, 0.4, 0.2, 0.1);
+        p.type = MPS_PROBE_FORCE;
+        p.average = average[k];
+        ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
+        if (k == 3) ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_FORCE));
+        for (int n = 1; n <= 5; n++) {
+            pose.value[MPS_MOVE_X] = 1e-6 * n * n;
+            if (k < 4) ASSERT_OK(sim, mps_motion_pose_set(sim, 1e-3 * n, &pose));
+            ASSERT_OK(sim, mps_run(sim, 1e-3 * n, NULL, NULL));
+        }
+        const char *said = strstr(told, "probe 0 averages a force over");
+        assert_true((said != NULL) == (k < 2));
+        if (said) assert_non_null(strstr(said, "must not drive a body"));
+        if (said) assert_null(strstr(said + 1, "probe 0 averages a force over"));
+        mps_sim_destroy(sim);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_corner),       cmocka_unit_test(on_a_plate),
         cmocka_unit_test(normals_refused),   cmocka_unit_test(names),
-        cmocka_unit_test(names_in_messages),
+        cmocka_unit_test(names_in_messages), cmocka_unit_test(forces_that_lag),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

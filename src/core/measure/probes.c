@@ -8,6 +8,7 @@
 #include "rotation.h"
 #include "terms.h"
 #include <math.h>
+#include <mps/couple.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -431,6 +432,21 @@ static void note_window(mps__world *w, const mps__probes *p, int64_t k)
              w->state.t, mps__probe_label(p, k, label), c->average, w->state.crossing_time);
 }
 
+/* Say once that a force lags, to a host that moves the tank step by step and does not ask for its load otherwise. */
+static void note_lag(mps__world *w, mps__probes *p, int64_t k)
+{
+    mps__probe *f = &p->list[k];
+    char label[MPS__PROBE_LABEL];
+    if (f->lag_told || f->config.type != MPS_PROBE_FORCE || !w->motion.posed ||
+        w->load.watch != MPS_LOAD_NONE || window(w, &f->config) == 0)
+        return;
+    f->lag_told = true;
+    mps__log(w->context, MPS_LOG_WARNING,
+             "t = %.6g s: probe %s averages a force over the last %.3g s, so it lags and must not "
+             "drive a body: that is what mps_load_watch() and mps_load_get() are for",
+             w->state.t, mps__probe_label(p, k, label), window(w, &f->config));
+}
+
 mps_status mps__probe_take(mps__world *w, mps__probe *p)
 {
     double values[MPS__PROBE_VALUES];
@@ -457,6 +473,7 @@ mps_status mps__probes_take(mps__world *w, mps__probes *p)
     for (int64_t k = 0; k < p->count; k++) {
         if (p->list[k].removed) continue;
         note_window(w, p, k);
+        note_lag(w, p, k);
         const mps_status status = mps__probe_take(w, &p->list[k]);
         if (status < 0)
             return mps__fail(w->context, status, "no step was done, probe %s: %.400s",

@@ -13,7 +13,8 @@ typedef struct mps__probe {
     char part_name[MPS__PART_NAME], name[MPS__PART_NAME]; /* "": none; config.name is NULL */
     mps__sensor sensor;                                   /* of a wall pressure */
     mps__series series;                                   /* of an average or a rate */
-    bool removed; /* its place in the list stays: numbers are not used again */
+    bool removed;  /* its place in the list stays: numbers are not used again */
+    bool lag_told; /* that its force must not drive a body */
 } mps__probe;
 
 typedef struct mps__probes {

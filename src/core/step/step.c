@@ -5,6 +5,7 @@
 #include "step.h"
 #include "undo.h"
 #include "world_ranks.h"
+#include <math.h>
 #include <string.h>
 
 /* ---- the flow ---- */
@@ -139,6 +140,25 @@ static mps_status prepare(mps__world *w)
     return mps__channels_reserve(&w->channels, w->particles.n);
 }
 
+/* A tank that its load moves, and that jumps while the step fails, was most likely thrown there by its coupling. */
+static mps_status name_coupling(const mps__step *q, mps_status status)
+{
+    const mps__world *w = q->w;
+    const double jump = fmax(q->jump.accel, w->state.jump.accel),
+                 usual = w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp;
+    if (status != MPS_E_DIVERGED || !(jump > 2 * usual) || strstr(w->context->error, "coupling"))
+        return status;
+    if (mps__body_carries(w))
+        return mps__fail(w->context, status,
+                         "%.330s; coupling: the body moved walls with %.3g m/s2", w->context->error,
+                         jump);
+    if (!w->motion.posed) return status;
+    return mps__fail(w->context, status,
+                     "%.330s; coupling: mps_motion_pose_set() moved walls with %.3g m/s2. A body "
+                     "that is lighter than the added mass of its liquid needs mps_load.mass",
+                     w->context->error, jump);
+}
+
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w};
@@ -170,7 +190,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     if (status < 0) {
         mps__world_depopulate(w);
         w->state.start_pending = start_pending;
-        return status;
+        return name_coupling(&q, status);
     }
     if (w->state.step == 0) mps__world_note_phases(w);
     commit(&q);
