@@ -8,6 +8,7 @@
  * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution.
  * Each row looks at its own pairs, so that rows may lie on several ranks. */
 #include "bounds.h"
+#include "loop.h"
 #include <math.h>
 #include <string.h>
 
@@ -67,6 +68,22 @@ static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
         b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->held[i] != 0};
     }
     return MPS_OK;
+}
+
+typedef struct bounded {
+    const int32_t *condition, *particle;
+} bounded;
+
+MPS_ROW bool has_least(const bounded *f, int64_t r)
+{
+    return f->condition[f->particle[r]] == MPS_ROW_LEAST;
+}
+MPS__FIRST(bounded_rows, has_least, bounded)
+
+bool mps__bounds_any(const mps__ppe *e, const mps__ppe_terms *t)
+{
+    return mps__first_run(e->parallel, &bounded_rows, e->n, &(bounded){t->condition, e->particle}) <
+           e->n;
 }
 
 static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
@@ -185,7 +202,8 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     int32_t iterations = 0;
     double setup = 0;
     bool again = true;
-    MPS__TRY(collect(b, e, s, t));
+    b->count = 0;
+    if (!e->device) MPS__TRY(collect(b, e, s, t));
     b->any = on_any_rank(e, b->count > 0);
     bool last = !b->any;
     for (b->solves = 0; again; last = true) {

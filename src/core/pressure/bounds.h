@@ -26,8 +26,11 @@ enum { MPS__ROW_HELD = 3 };
 
 void mps__bounds_init(mps__bounds *b, mps__context *context);
 void mps__bounds_free(mps__bounds *b);
+/* Whether an equation, on a device or not, has a row of MPS_ROW_LEAST. */
+bool mps__bounds_any(const mps__ppe *e, const mps__ppe_terms *t);
 /* Solve the assembled equation for e->p, with p_i >= value_i in rows of MPS_ROW_LEAST, beginning with those of b->held; its condition becomes
- * MPS__ROW_HELD where they are at it now. Iterations and times of `result` are those of all solutions. */
+ * MPS__ROW_HELD where they are at it now. Iterations and times of `result` are those of all solutions.
+ * An equation on a device may have no such row. */
 mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
                              mps__ppe_terms *t, mps_ppe_result *result);
 /* Solve the same matrix for another right side `rhs` [n]: the change of pressures by a change of it, which is 0 in held rows and in rows
