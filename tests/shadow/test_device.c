@@ -205,8 +205,8 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {100, 120}, {55, 75}, {110, 160}, {200, 380}},
-        {"imps", 3, {110, 130}, {55, 75}, {110, 140}, {200, 340}},
+        {"imps", 2, {105, 130}, {55, 75}, {60, 100}, {200, 350}},
+        {"imps", 3, {115, 140}, {55, 75}, {60, 100}, {200, 340}},
         {"mmps", 2, {120, 145}, {55, 75}, {80, 130}, {250, 380}},
     };
     (void)state;
@@ -248,7 +248,7 @@ static void costs(void **state)
 /* Bytes up of a particle in steps with a search and without one: a search brings new lists, and its order; fields are put in order there. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{100, 195}, {180, 310}}, {{110, 230}, {180, 330}}};
+    static const double range[2][2][2] = {{{60, 100}, {120, 200}}, {{60, 110}, {110, 190}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);

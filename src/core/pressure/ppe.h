@@ -24,7 +24,7 @@ typedef struct mps__ppe_terms {
     bool linear; /* no row has the law of a gas */
 } mps__ppe_terms;
 
-/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last. */
+/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last two. */
 enum {
     MPS__PPE_VALUES,
     MPS__PPE_COLUMNS,
@@ -33,6 +33,7 @@ enum {
     MPS__PPE_LABELS,
     MPS__PPE_NUMBERS,
     MPS__PPE_MOMENTS,
+    MPS__PPE_BOUNDS,
     MPS__PPE_BLOCKS
 };
 

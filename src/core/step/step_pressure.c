@@ -192,10 +192,10 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     mps__world *w = q->w;
     mps_ppe_result result = {.struct_size = sizeof result};
     mps_status status = MPS_OK;
-    w->bounds.held = w->particles.held;
+    w->bounds.held = mps__seen(w, w->particles.held);
     w->bounds.solves = 0;
     if (mps__ppe_rows(&w->ppe) > 0)
-        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->view, terms, &result);
+        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
     if (status < 0) return tell_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
     if (q->not_converged)
@@ -226,11 +226,11 @@ static mps_status show_equation(void *owner, mps_ppe_problem *here)
 }
 
 /* Whether the equation is solved where it is. The added mass needs it on the host. */
-static bool stays(const mps__step *q, const mps__ppe_terms *terms)
+static bool stays(const mps__step *q)
 {
     const mps__world *w = q->w;
-    return w->ppe.device && q->load.what != MPS_LOAD_MASS &&
-           mps__solvers_there(&w->solvers, &w->ppe.problem) && !mps__bounds_any(&w->ppe, terms);
+    return !w->solvers.device || (w->ppe.device && q->load.what != MPS_LOAD_MASS &&
+                                  mps__solvers_there(&w->solvers, &w->ppe.problem));
 }
 
 /* The equation comes to the host, and the pressures go back, and what was made of conditions. */
@@ -256,13 +256,13 @@ static mps_status solve(mps_stage *s)
     mps__step *q = mps__step_of(s);
     mps__solvers *solvers = &q->w->solvers;
     mps__ppe_terms terms = q->terms;
+    terms.flux = &s->view->flux;
     terms.value = s->data[LEAST];
     terms.condition = s->data[CONDITIONS];
     solvers->device = mps__twins_device(&q->w->host.twins);
     solvers->show = show_equation;
     solvers->owner = q->w;
-    const mps_status status = !solvers->device || stays(q, &terms) ? solve_equation(s, &terms)
-                                                                   : solve_here(s);
+    const mps_status status = stays(q) ? solve_equation(s, &terms) : solve_here(s);
     solvers->device = NULL;
     return status;
 }
