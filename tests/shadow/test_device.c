@@ -205,8 +205,8 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {105, 130}, {55, 70}, {60, 100}, {200, 310}},
-        {"imps", 3, {115, 140}, {55, 72}, {60, 105}, {180, 270}},
+        {"imps", 2, {105, 130}, {55, 70}, {60, 100}, {200, 280}},
+        {"imps", 3, {115, 140}, {55, 72}, {60, 105}, {180, 250}},
         {"mmps", 2, {120, 145}, {50, 65}, {80, 130}, {120, 200}},
     };
     (void)state;

@@ -13,23 +13,30 @@ static mps_status reserve_here(const mps__ppe *e, mps__ppe *here)
     return e->law ? mps__ppe_reserve_laws(here) : MPS_OK;
 }
 
-/* The matrix, and of the rows what stands before an array. */
-static void fetch(const mps__ppe *e, const mps__ppe *here, const void *end)
+/* What stands before the end of an array of the rows. */
+static void fetch_rows(const mps__ppe *e, const mps__ppe *here, const void *end)
 {
-    mps__device *d = e->device;
-    const size_t entries = (size_t)e->entries;
-    mps__device_download(d, here->diagonal, e->diagonal,
+    mps__device_download(e->device, here->diagonal, e->diagonal,
                          (size_t)((const char *)end - (const char *)e->diagonal));
-    mps__device_download(d, here->col, e->col, entries * sizeof *e->col);
-    mps__device_download(d, here->val, e->val, entries * sizeof *e->val);
     if (e->n == 0) here->row[0] = 0;
 }
 
-mps_status mps__ppe_show(const mps__ppe *e, const mps_parallel *parallel, mps_ppe_problem *problem)
+static void fetch_entries(const mps__ppe *e, const mps__ppe *here)
+{
+    const size_t entries = (size_t)e->entries;
+    mps__device_download(e->device, here->col, e->col, entries * sizeof *e->col);
+    mps__device_download(e->device, here->val, e->val, entries * sizeof *e->val);
+}
+
+mps_status mps__ppe_show(const mps__ppe *e, const mps_parallel *parallel, bool entries,
+                         mps_ppe_problem *problem)
 {
     mps__ppe here;
     MPS__TRY(reserve_here(e, &here));
-    fetch(e, &here, e->x + e->columns * e->problem.dim);
+    if (entries)
+        fetch_entries(e, &here);
+    else
+        fetch_rows(e, &here, e->x + e->columns * e->problem.dim);
     *problem = e->problem;
     mps__ppe_point(problem, &here);
     problem->parallel = parallel;
@@ -40,7 +47,8 @@ mps_status mps__ppe_come(mps__ppe *e)
 {
     mps__ppe here;
     MPS__TRY(reserve_here(e, &here));
-    fetch(e, &here, e->unknown + e->particles);
+    fetch_rows(e, &here, e->unknown + e->particles);
+    fetch_entries(e, &here);
     if (e->law)
         mps__device_download(e->device, here.gas, e->gas, (size_t)(2 * e->n) * sizeof *e->gas);
     if (e->moments)

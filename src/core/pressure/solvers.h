@@ -36,7 +36,7 @@ typedef struct mps__solvers {
     mps__device_block room; /* of equations that are sent there */
     /* while the solution is found there: the equation on the host, if it was sent from there; else copies what a set-up looks at */
     const mps_ppe_problem *here;
-    mps_status (*show)(void *owner, mps_ppe_problem *here);
+    int (*show)(void *owner, bool entries, mps_ppe_problem *here);
     void *owner; /* first argument of `show` */
 } mps__solvers;
 

@@ -75,10 +75,10 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
 
 int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
 {
-    mps_ppe_problem shown;
+    const mps__equation_there source = {there, s->show, s->owner};
     if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
-    if (!s->here && s->show(s->owner, &shown) < 0) return MPS_PPE_NOMEM;
-    const int reason = s->pc->setup(s->pc_self, s->here ? s->here : &shown);
+    if (!s->here) return mps__auxgrid_setup_there(s->pc_self, &source, s->device);
+    const int reason = s->pc->setup(s->pc_self, s->here);
     return reason ? reason : mps__auxgrid_send(s->pc_self, s->device);
 }
 

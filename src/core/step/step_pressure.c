@@ -219,10 +219,10 @@ static const mps_use solve_uses[] = {[LEAST] = {"pressure_value", MPS_USE_READ},
                                      {"unknown_places", MPS_USE_READ}};
 
 /* What a preconditioner that the host sets up looks at. */
-static mps_status show_equation(void *owner, mps_ppe_problem *here)
+static int show_equation(void *owner, bool entries, mps_ppe_problem *here)
 {
     const mps__world *w = owner;
-    return mps__ppe_show(&w->ppe, &w->host.twins.host_parallel, here);
+    return mps__ppe_show(&w->ppe, &w->host.twins.host_parallel, entries, here) < 0;
 }
 
 /* Whether the equation is solved where it is. The added mass needs it on the host. */
