@@ -31,10 +31,12 @@ MPS_ROW bool has_law(const law_fields *f, int64_t i)
 MPS__FIRST(laws, has_law, law_fields)
 
 /* The law of a gas needs a solver of nonlinear rows. */
-static mps_status check_laws(const mps__step *q, const double *law)
+static mps_status check_laws(mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
-    if (!w->solvers.use->nonlinear &&
+    const bool written = mps__host_writer(&w->host, MPS__GAS_LAW) != NULL;
+    q->terms.linear = !written || !w->solvers.use->nonlinear;
+    if (written && !w->solvers.use->nonlinear &&
         mps__first_run(&w->pool.parallel, &laws, q->view.n, &(law_fields){law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
@@ -72,7 +74,6 @@ static mps_status close_equation(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     MPS__TRY(check_laws(q, s->data[0]));
-    q->terms.linear = !q->w->solvers.use->nonlinear;
     MPS__TRY(check_ranks(q));
     spread_gain(q);
     return MPS_OK;
