@@ -93,9 +93,8 @@ static int build_grids(mps__grid *g, const mps_ppe_problem *problem)
     return mps__grid_many(g) ? mps__grid_divide(g) : 0;
 }
 
-static int setup(void *self, const mps_ppe_problem *problem)
+static int setup_from(auxgrid *a, const mps_ppe_problem *problem)
 {
-    auxgrid *a = self;
     mps__grid *g = &a->grid;
     const int64_t columns = mps__columns(problem),
                   rows = problem->ranks ? problem->ranks->rows : problem->n;
@@ -112,6 +111,22 @@ static int setup(void *self, const mps_ppe_problem *problem)
     if (!reason && rows > 0) reason = build_grids(g, problem);
     if (!reason) invert_diagonal(a, problem);
     return reason;
+}
+
+static int setup(void *self, const mps_ppe_problem *problem)
+{
+    return setup_from(self, problem);
+}
+
+int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, mps__device *d)
+{
+    auxgrid *a = self;
+    mps_ppe_problem here;
+    if (source->show(source->owner, false, &here)) return MPS_PPE_NOMEM;
+    a->grid.source = source;
+    const int reason = setup_from(a, &here);
+    a->grid.source = NULL;
+    return reason ? reason : mps__auxgrid_send(a, d);
 }
 
 typedef struct application {

@@ -6,7 +6,7 @@
 
 #include "device.h"
 #include "loop.h"
-#include <mps/ppe.h>
+#include "builtin.h"
 #include <stdbool.h>
 
 enum {
@@ -162,6 +162,8 @@ typedef struct mps__grid {
         turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
     mps__grid_ranks ranks;
     const struct mps__grid_away *away; /* these grids are on a device; NULL: here */
+    /* during a set-up: the equation on a device, whose rows are here, but not yet its matrix; NULL: all of it is here */
+    const mps__equation_there *source;
 } mps__grid;
 
 /* Cells of the finer grid that add to each cell, on a device. */

@@ -2,6 +2,7 @@
 /* auxgrid: cell size and place of the cells, conductances between them for one density, and the coarser grids. */
 #include "auxgrid.h"
 #include "kernels.h"
+#include "loop.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -11,67 +12,66 @@ static const double one_density =
     4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
 static const double stiffer = 1.5; /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
 
-static double square_distance(const mps_ppe_problem *problem, int64_t i, int64_t j)
-{
-    double r2 = 0;
-    for (int a = 0; a < problem->dim; a++) {
-        double d = problem->x[j * problem->dim + a] - problem->x[i * problem->dim + a];
-        r2 += d * d;
-    }
-    return r2;
-}
-
 /* A grid and what it is made from. */
 typedef struct making {
     mps__grid *g;
     mps__grid_level *l;
     const mps_ppe_problem *problem;
-    double per_dp; /* 1 / particle spacing */
-    bool every;    /* all rows are sampled */
     double square; /* mean of r_ij^2 */
 } making;
 
+/* What the sample of rows sees. */
+typedef struct sampling {
+    const int64_t *row;
+    const int32_t *col;
+    const float *val;
+    const double *x;
+    double per_dp; /* 1 / particle spacing */
+    bool every;    /* all rows are sampled */
+} sampling;
+
 /* One place of SAMPLE, on each line along an axis. A function of the place: the numbers of rows depend on the rank. */
-static bool is_sampled(const making *m, int64_t i)
+MPS_ROW bool is_sampled(const int dim, const sampling *f, int64_t i)
 {
-    static const int64_t step[3] = {1, 5, 7};
-    const mps_ppe_problem *problem = m->problem;
+    const int64_t step[3] = {1, 5, 7};
     int64_t sum = 0;
-    for (int a = 0; a < problem->dim; a++) {
-        const double u = problem->x[i * problem->dim + a] * m->per_dp;
+    for (int a = 0; a < dim; a++) {
+        const double u = f->x[i * dim + a] * f->per_dp;
         if (fabs(u) < 0x1p40) sum += step[a] * (int64_t)floor(u);
     }
-    return m->every || sum % SAMPLE == 0;
+    return f->every || sum % SAMPLE == 0;
 }
 
 /* Sums: of k_ij r_ij^2, of k_ij. */
-static void square_rows(void *argument, int64_t begin, int64_t end, mps_exact *sums, double *none)
+MPS_ROW void square_row(const int dim, const sampling *f, int64_t i, double *values)
 {
-    const making *m = argument;
-    const mps_ppe_problem *problem = m->problem;
-    (void)none;
-    for (int64_t i = begin; i < end; i++) {
-        double squares = 0, sum = 0;
-        if (!is_sampled(m, i)) continue;
-        for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-            const double c = fmax(-(double)problem->val[k], 0);
-            squares += c * square_distance(problem, i, problem->col[k]);
-            sum += c;
-        }
-        mps_exact_add(&sums[0], 1, &squares);
-        mps_exact_add(&sums[1], 1, &sum);
+    double squares = 0, sum = 0;
+    if (!is_sampled(dim, f, i)) return;
+    for (int64_t k = f->row[i]; k < f->row[i + 1]; k++) {
+        const double c = f->val[k] < 0 ? -(double)f->val[k] : 0;
+        squares += c * mps__square_between(f->x + i * dim, f->x + (int64_t)f->col[k] * dim, dim);
+        sum += c;
     }
+    values[0] = squares;
+    values[1] = sum;
 }
+MPS__VALUES(square_rows, square_row, sampling, 2, 0)
 
 /* Sum of k_ij r_ij^2 over that of k_ij, from a sample of the rows: all have the same kernel. */
 static double mean_square(const mps_ppe_problem *problem)
 {
-    making m = {.problem = problem, .per_dp = 1 / problem->dp};
-    double v[2] = {0};
+    sampling f = {.row = problem->row,
+                  .col = problem->col,
+                  .val = problem->val,
+                  .x = problem->x,
+                  .per_dp = 1 / problem->dp};
+    double v[2] = {0}, none[1];
     for (int pass = 0; pass < 2 && !(v[1] > 0); pass++) {
         mps_exact sums[2] = {{{0}, 0, 0}};
-        m.every = pass > 0;
-        mps__reduce(problem, square_rows, &m, &(mps_exact_values){.sums = 2, .sum = sums});
+        f.every = pass > 0;
+        mps__values_run(mps__team(problem->parallel, problem->n), &square_rows, problem->dim,
+                        problem->n, &f, sums, none);
+        mps_ppe_total(problem, &(mps_exact_values){.sums = 2, .sum = sums});
         for (int k = 0; k < 2; k++) v[k] = mps_exact_value(&sums[k]);
     }
     return v[1] > 0 ? v[0] / v[1] : 0;
@@ -104,7 +104,9 @@ static void measure_rows(void *argument, int64_t begin, int64_t end, mps_exact *
 /* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem)
 {
-    making m = {.g = g, .problem = problem, .square = mean_square(problem)};
+    making m = {.g = g,
+                .problem = problem,
+                .square = mean_square(g->source ? g->source->problem : problem)};
     mps_exact sums[3] = {{{0}, 0, 0}};
     double v[3], most = 0;
     mps__reduce(problem, measure_rows, &m, &(mps_exact_values){3, 1, sums, &most});

@@ -176,9 +176,12 @@ static int add_ranks(wiring *y)
                : 0;
 }
 
-int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem)
+int mps__grid_wires(mps__grid *g, const mps_ppe_problem *given)
 {
     const mps__grid_level *l = &g->level[0];
+    mps_ppe_problem whole = *given;
+    if (g->source && g->source->show(g->source->owner, true, &whole)) return MPS_PPE_NOMEM;
+    const mps_ppe_problem *problem = &whole;
     const mps_parallel *team = mps__team(problem->parallel, problem->n);
     const int32_t chunks = team && team->threads > 1 ? CHUNKS : 1;
     if (!mps__grid_reserve_parts(g, (size_t)(chunks * l->cells * g->dim) * sizeof(uint64_t)))

@@ -4,6 +4,7 @@
 #define MPS_PPE_BUILTIN_H
 
 #include <mps/ppe.h>
+#include <stdbool.h>
 
 /* Where a solver hands the errors of its library: `user` of its table, which is in *self when create() is called. NULL: nowhere. */
 typedef struct mps__solver_log {
@@ -26,6 +27,17 @@ struct mps__device;
  * arrays of the problem, but for shift and x, and p are there, and so is its parallel-for. auxgrid is set up on the host; then its grids go
  * to the device, where apply() runs until the next set-up. Returns 0 or a reason of failure. */
 int mps__auxgrid_send(void *self, struct mps__device *d);
+
+/* An equation that is on a device alone. */
+typedef struct mps__equation_there {
+    const mps_ppe_problem *problem; /* with arrays there */
+    /* Copies to the host: what stands beside the matrix and where its rows begin, or the entries too. Returns 0, or non-zero: no memory, or
+     * the device failed. */
+    int (*show)(void *owner, bool entries, mps_ppe_problem *here);
+    void *owner;
+} mps__equation_there;
+/* The same with a set-up from such an equation, whose entries come to the host where they are looked at. */
+int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, struct mps__device *d);
 /* What they have on a device is given back; call it before the device is detached. */
 void mps__pcg_leave(void *self);
 void mps__jacobi_leave(void *self);

@@ -120,7 +120,6 @@ static void kernels_are_there(void **state)
     static const char *const without[] = {"neighbours__search_parts",
                                           "neighbours_rows__exact_parts",
                                           "voids_cells__",
-                                          "levels__join_rows",
                                           "_listed in",
                                           "__clear_turns",
                                           "__sum_turns"}; /* ON_HOST of that script */

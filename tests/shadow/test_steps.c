@@ -5,6 +5,7 @@
 #include "checkpoint_fixture.h"
 #include "model_fixture.h"
 #include "scene.h"
+#include <mps/couple.h>
 #include <mps/reaction.h>
 
 /* ---- what users do ---- */
@@ -130,6 +131,65 @@ static void other_scenes(void **state)
         same_memory(host, sim);
         mps_sim_destroy(host);
         mps_sim_destroy(sim);
+    }
+}
+
+/* A tank without a surface: nothing gives the pressures a level. */
+static mps_sim *closed(int32_t dim)
+{
+    mps_sim *sim = new_sim(dim, dim == 2 ? 0.05 : 0.1);
+    shadow_heap(sim);
+    add_tank(sim, 0.6, 0.6, 0.4);
+    fill_depth(sim, 0.6, 0.6, 0.4);
+    shake(sim, 0.05);
+    return sim;
+}
+
+static mps_sim *solved_by(int32_t dim, const char *solver, const char *preconditioner)
+{
+    mps_sim *sim = rolling("imps", dim);
+    ASSERT_OK(sim, mps_solver_use(sim, solver, preconditioner));
+    return sim;
+}
+
+static mps_sim *with_mass(const char *preset, int32_t dim)
+{
+    mps_sim *sim = rolling(preset, dim);
+    ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_MASS));
+    return sim;
+}
+
+static void same_loads(mps_sim *host, mps_sim *sim)
+{
+    mps_load a = {.struct_size = sizeof a}, b = {.struct_size = sizeof b};
+    ASSERT_OK(host, mps_load_get(host, NULL, &a));
+    ASSERT_OK(sim, mps_load_get(sim, NULL, &b));
+    assert_memory_equal(&a, &b, sizeof a);
+}
+
+/* Equations that a device has made and the host solves. */
+static void other_solutions(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 12; k++) {
+        const int32_t dim = 2 + k % 2;
+        mps_sim *pair[2];
+        shadow s;
+        for (int side = 0; side < 2; side++)
+            pair[side] = k < 2   ? closed(dim)
+                         : k < 4 ? solved_by(dim, "sundials.klu", NULL)
+                         : k < 6 ? solved_by(dim, "sundials.gmres", "ic0")
+                         : k < 8 ? solved_by(dim, "sundials.pcg", "none")
+                                 : with_mass(k < 10 ? "imps" : "mmps", dim);
+        shadow_attach(&s, pair[1]);
+        go(pair[0], 8);
+        go(pair[1], 8);
+        same(pair[0], pair[1]);
+        if (k >= 8) same_loads(pair[0], pair[1]);
+        same_memory(pair[0], pair[1]);
+        mps_sim_destroy(pair[0]);
+        mps_sim_destroy(pair[1]);
+        assert_int_equal(s.rooms, 0);
     }
 }
 
@@ -282,11 +342,9 @@ static void without_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(presets),
-        cmocka_unit_test(other_scenes),
-        cmocka_unit_test(all_models),
-        cmocka_unit_test(plugins),
-        cmocka_unit_test(an_undeclared_use_is_found),
+        cmocka_unit_test(presets),         cmocka_unit_test(other_scenes),
+        cmocka_unit_test(other_solutions), cmocka_unit_test(all_models),
+        cmocka_unit_test(plugins),         cmocka_unit_test(an_undeclared_use_is_found),
         cmocka_unit_test(without_room),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

@@ -14,6 +14,7 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the handle has %d ranks: a device is for one rank", (int)w->ranks.count);
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
+    mps__ppe_leave(&w->ppe, &w->host.twins.device);
     return mps__twins_attach(&w->host.twins, ops);
 }
 

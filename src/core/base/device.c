@@ -94,6 +94,22 @@ void mps__device_give(mps__device *d, void *room, size_t bytes)
     d->info.bytes_held -= (int64_t)bytes;
 }
 
+void *mps__device_fit(mps__device *d, mps__device_block *room, size_t bytes)
+{
+    if (room->data && bytes <= room->bytes) return room->data;
+    mps__device_leave(d, room);
+    const size_t wanted = bytes + bytes / 8 + sizeof(double);
+    room->data = mps__device_room(d, wanted);
+    if (room->data) room->bytes = wanted;
+    return room->data;
+}
+
+void mps__device_leave(mps__device *d, mps__device_block *room)
+{
+    mps__device_give(d, room->data, room->bytes);
+    *room = (mps__device_block){NULL, 0};
+}
+
 static void *alloc_block(void *user, size_t bytes)
 {
     mps__device *d = user;

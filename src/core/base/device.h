@@ -9,6 +9,12 @@
 /* Blocks of mps__device_allocator() at a time. */
 enum { MPS__DEVICE_BLOCKS = 32 };
 
+/* Memory there that grows and is kept. */
+typedef struct mps__device_block {
+    void *data;
+    size_t bytes;
+} mps__device_block;
+
 typedef struct mps__device {
     mps__context *context;
     mps_device_ops ops;    /* name NULL: there is none */
@@ -39,6 +45,9 @@ mps_status mps__device_status(const mps__device *d);
 /* Memory; NULL with the error text set: there is none. */
 void *mps__device_room(mps__device *d, size_t bytes);
 void mps__device_give(mps__device *d, void *room, size_t bytes);
+/* Room for so many bytes; what it held is gone if there were fewer. NULL as above, and the room is empty. */
+void *mps__device_fit(mps__device *d, mps__device_block *room, size_t bytes);
+void mps__device_leave(mps__device *d, mps__device_block *room);
 /* The same as an allocator, which knows the bytes of its few blocks. */
 mps_allocator mps__device_allocator(mps__device *d);
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes);

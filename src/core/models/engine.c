@@ -270,7 +270,6 @@ mps_status mps__twins_close(mps__twins *t)
     if (!t->step) return MPS_OK;
     mps__twins_go(t, MPS__ON_HOST);
     mps__twins_fields_ready(t);
-    mps__twins_rows_ready(t);
     for (int32_t k = MPS__LASTING; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
     if (t->device.failed) t->changes = t->listed = -1;
     t->last = t->device.info;

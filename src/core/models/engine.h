@@ -18,6 +18,7 @@ enum {
     MPS__ROWS_COUNT,
     MPS__ROWS_COLUMNS,
     MPS__IDLE_ROWS,
+    MPS__RIM_ROWS,
     MPS__LASTING, /* those before it stay until the next search; the others live for a step */
     MPS__NEAR_BEGIN = MPS__LASTING,
     MPS__NEAR_COLUMNS,
@@ -81,7 +82,8 @@ static inline mps__device *mps__twins_device(mps__twins *t)
 {
     return t->open ? &t->device : NULL;
 }
-/* It is over, wherever it has ended: all fields and lists come to the host. MPS_E_PLUGIN: they did not. */
+/* It is over, wherever it has ended: all fields come to the host. Lists of the search do not: the host's have the same candidates, and are
+ * parted again where they are needed. MPS_E_PLUGIN: the fields did not. */
 mps_status mps__twins_close(mps__twins *t);
 
 /* ---- where loops run ---- */

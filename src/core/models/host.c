@@ -266,11 +266,13 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
     if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
-    if (place == MPS__ON_HOST) mps__twins_rows_ready(&h->twins);
-    if (place == MPS__ON_HOST && call->model) mps__twins_lists_ready(&h->twins);
-    for (int32_t u = 0; u < call->use_count; u++)
+    bool pairs = call->model != NULL;
+    for (int32_t u = 0; u < call->use_count; u++) {
+        pairs = pairs || call->uses[u].access & MPS__USE_AROUND;
         if (!(call->uses[u].access & MPS__USE_BEGIN))
             mps__twins_ready(&h->twins, call->channel[u], place);
+    }
+    if (place == MPS__ON_HOST && pairs) mps__twins_lists_ready(&h->twins);
     if (call->hook < MPS_FORCE) return;
     mps__flux_channels(h->channels, flux);
     for (int f = 0; f < MPS__FLUX_CHANNELS; f++) mps__twins_ready(&h->twins, flux[f], place);

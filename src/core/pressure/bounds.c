@@ -8,6 +8,7 @@
  * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution.
  * Each row looks at its own pairs, so that rows may lie on several ranks. */
 #include "bounds.h"
+#include "loop.h"
 #include <math.h>
 #include <string.h>
 
@@ -19,9 +20,6 @@ static const double LOOSE = 100;
 
 /* Changes of pressures by the acceleration of the tank, likewise. */
 static const double ACCURATE = 1000;
-
-/* Pressures this near to their least, over rho U_g^2, are at it. */
-static const double NEARLY = 1e-3;
 
 struct mps__bound {
     int64_t row;
@@ -63,10 +61,27 @@ static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
             continue;
         MPS__TRY(mps__grow(b->context, (void **)&b->list, &b->capacity, b->count, b->count + 1,
                            sizeof *b->list));
-        const double margin = NEARLY * t->flux->density[i] * s->velocity_scale * s->velocity_scale;
+        const double margin = MPS__BOUNDS_NEARLY * t->flux->density[i] * s->velocity_scale *
+                              s->velocity_scale;
         b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->held[i] != 0};
     }
     return MPS_OK;
+}
+
+typedef struct bounded {
+    const int32_t *condition, *particle;
+} bounded;
+
+MPS_ROW bool has_least(const bounded *f, int64_t r)
+{
+    return f->condition[f->particle[r]] == MPS_ROW_LEAST;
+}
+MPS__FIRST(bounded_rows, has_least, bounded)
+
+static bool any_bounded(const mps__ppe *e, const mps__ppe_terms *t)
+{
+    return mps__first_run(e->parallel, &bounded_rows, e->n, &(bounded){t->condition, e->particle}) <
+           e->n;
 }
 
 static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
@@ -158,6 +173,7 @@ static bool on_any_rank(const mps__ppe *e, bool here)
 static bool choose(mps__bounds *b, const mps__ppe *e)
 {
     bool changed = false;
+    if (e->device) return b->any && mps__bounds_choose_there(b, e);
     for (int64_t k = 0; k < b->count; k++) {
         struct mps__bound *row = &b->list[k];
         const bool held = row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
@@ -171,11 +187,31 @@ static bool choose(mps__bounds *b, const mps__ppe *e)
 static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
                              const mps__effort *effort, mps_ppe_result *result)
 {
-    mps_status status = b->any ? pin_rows(b, e) : MPS_OK;
+    mps_status status = MPS_OK;
+    if (b->any && e->device)
+        mps__bounds_pin_there(b, e);
+    else if (b->any)
+        status = pin_rows(b, e);
     if (status == MPS_OK)
         status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
-    let_go(b, e);
+    if (b->any && e->device)
+        mps__bounds_free_there(b, e);
+    else
+        let_go(b, e);
     return status;
+}
+
+/* Rows with a least pressure. */
+static mps_status begin(mps__bounds *b, mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
+{
+    b->count = 0;
+    if (e->device) {
+        b->any = any_bounded(e, t);
+        return b->any ? mps__bounds_begin_there(b, e, s, t) : MPS_OK;
+    }
+    MPS__TRY(collect(b, e, s, t));
+    b->any = on_any_rank(e, b->count > 0);
+    return MPS_OK;
 }
 
 mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
@@ -185,8 +221,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     int32_t iterations = 0;
     double setup = 0;
     bool again = true;
-    MPS__TRY(collect(b, e, s, t));
-    b->any = on_any_rank(e, b->count > 0);
+    MPS__TRY(begin(b, e, s, t));
     bool last = !b->any;
     for (b->solves = 0; again; last = true) {
         status = solve_held(b, solvers, e, &(mps__effort){last ? 1 : LOOSE, b->solves > 0}, result);
@@ -200,6 +235,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     }
     for (int64_t k = 0; k < b->count; k++)
         if (b->list[k].held) t->condition[e->particle[b->list[k].row]] = MPS__ROW_HELD;
+    if (b->any && e->device) mps__bounds_tell_there(b, e);
     result->iterations = iterations;
     result->setup_seconds = setup;
     return status;

@@ -3,7 +3,46 @@
  * all have one. Then one pass over the entries on all threads is enough: trees of joined rows, whose root is their lowest row. */
 #include "levels.h"
 #include "loop.h"
+#ifndef MPS_DEVICE
 #include <stdatomic.h>
+#endif
+
+/* Numbers that threads meet at. Compilers for devices know the operations of C11 as calls alone. */
+#ifdef MPS_DEVICE
+typedef volatile int32_t shared;
+
+MPS_ROW int32_t get(const shared *at)
+{
+    return *at;
+}
+
+MPS_ROW void put(shared *at, int32_t value)
+{
+    *at = value;
+}
+
+MPS_ROW bool replace(shared *at, int32_t before, int32_t value)
+{
+    return __sync_bool_compare_and_swap(at, before, value);
+}
+#else
+typedef _Atomic int32_t shared;
+
+MPS_ROW int32_t get(const shared *at)
+{
+    return atomic_load_explicit(at, memory_order_relaxed);
+}
+
+MPS_ROW void put(shared *at, int32_t value)
+{
+    atomic_store_explicit(at, value, memory_order_relaxed);
+}
+
+MPS_ROW bool replace(shared *at, int32_t before, int32_t value)
+{
+    return atomic_compare_exchange_strong(at, &before, value);
+}
+#endif
 
 /* The lowest row of every tree is its own parent, others have a lower one. Parents are only ever replaced by rows further up, so that threads
  * may meet in a tree. */
@@ -11,38 +50,43 @@ typedef struct forest {
     int64_t n; /* rows of this rank */
     const int64_t *row;
     const int32_t *col;
-    _Atomic int32_t *parent;
+    const double *shift;
+    shared *parent;
+    shared *level; /* of a root: 1 if a row of its tree has a level */
 } forest;
 
-static inline int32_t parent_of(const forest *f, int32_t r)
+/* Rows on the way are brought nearer to it. */
+MPS_ROW int32_t root_of(const forest *f, int32_t r)
 {
-    return atomic_load_explicit(&f->parent[r], memory_order_relaxed);
-}
-
-static inline void set_parent(const forest *f, int32_t r, int32_t parent)
-{
-    atomic_store_explicit(&f->parent[r], parent, memory_order_relaxed);
-}
-
-static int32_t root_of(const forest *f, int32_t r)
-{
-    int32_t parent = parent_of(f, r);
+    int32_t parent = get(&f->parent[r]);
     while (parent != r) {
+        const int32_t above = get(&f->parent[parent]);
+        if (above != parent) put(&f->parent[r], above);
         r = parent;
-        parent = parent_of(f, r);
+        parent = above;
     }
     return r;
 }
 
 /* Make one tree of those of rows r and c. */
-static void join(const forest *f, int32_t r, int32_t c)
+MPS_ROW void join(const forest *f, int32_t r, int32_t c)
 {
     for (;;) {
-        const int32_t a = root_of(f, r), b = root_of(f, c), low = a < b ? a : b;
-        int32_t high = a < b ? b : a;
-        if (low == high || atomic_compare_exchange_strong(&f->parent[high], &high, low)) return;
+        const int32_t a = root_of(f, r), b = root_of(f, c), low = a < b ? a : b,
+                      high = a < b ? b : a;
+        if (low == high || replace(&f->parent[high], high, low)) return;
     }
 }
+
+/* Most rows come into the tree of their first column at once. */
+MPS_ROW void begin_row(const int dim, const forest *f, int64_t r)
+{
+    const int64_t first = f->row[r] < f->row[r + 1] ? f->col[f->row[r]] : r;
+    (void)dim;
+    put(&f->parent[r], (int32_t)(first < r ? first : r));
+    put(&f->level[r], 0);
+}
+MPS__LOOP(begin_rows, begin_row, forest)
 
 MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
 {
@@ -50,27 +94,37 @@ MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
     for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
         if (f->col[k] >= f->n) continue; /* of another rank: it may stand anywhere in the row */
         if (f->col[k] > r) break;
-        if (parent_of(f, f->col[k]) != parent_of(f, (int32_t)r)) join(f, (int32_t)r, f->col[k]);
+        if (get(&f->parent[f->col[k]]) != get(&f->parent[r])) join(f, (int32_t)r, f->col[k]);
     }
 }
 MPS__LOOP(join_rows, join_row, forest)
 
-/* Whether each component has a level. Most rows come into the tree of their first column at once. */
-static bool all_have_level(mps__ppe *e, const mps_parallel *parallel)
+MPS_ROW void raise_row(const int dim, const forest *f, int64_t r)
 {
-    const forest f = {e->n, e->row, e->col, (_Atomic int32_t *)(void *)e->queue};
-    int32_t *level = e->component;
-    for (int32_t r = 0; r < e->n; r++) {
-        const int32_t first = e->row[r] < e->row[r + 1] ? e->col[e->row[r]] : r;
-        set_parent(&f, r, first < r ? parent_of(&f, first) : r);
-        level[r] = 0;
-    }
-    mps__loop_run(parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
-    for (int32_t r = 0; r < e->n; r++)
-        if (e->shift[r] > 0) level[root_of(&f, r)] = 1;
-    for (int32_t r = 0; r < e->n; r++)
-        if (parent_of(&f, r) == r && !level[r]) return false;
-    return true;
+    (void)dim;
+    if (f->shift[r] > 0) put(&f->level[root_of(f, (int32_t)r)], 1);
+}
+MPS__LOOP(raise_rows, raise_row, forest)
+
+MPS_ROW bool lacks_level(const forest *f, int64_t r)
+{
+    return get(&f->parent[r]) == r && get(&f->level[r]) == 0;
+}
+MPS__FIRST(lacking_rows, lacks_level, forest)
+
+/* Whether a component of this rank has no level. */
+static bool any_lacks_level(const mps__ppe *e)
+{
+    const forest f = {.n = e->n,
+                      .row = e->row,
+                      .col = e->col,
+                      .shift = e->shift,
+                      .parent = (shared *)(void *)e->queue,
+                      .level = (shared *)(void *)e->component};
+    mps__loop_run(e->parallel, &begin_rows, MPS__ANY_DIM, e->n, &f);
+    mps__loop_run(e->parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
+    mps__loop_run(e->parallel, &raise_rows, MPS__ANY_DIM, e->n, &f);
+    return mps__first_run(e->parallel, &lacking_rows, e->n, &f) < e->n;
 }
 
 /* In e->component: a row whose component was not looked at yet. In e->queue: behind the last row of a component. */
@@ -167,7 +221,15 @@ static int32_t balance(mps__ppe *e, const double *label)
     return singular;
 }
 
-static mps_status find_levels(mps__ppe *e, const int64_t *id, int32_t *singular)
+void mps__levels_look(mps__ppe *e)
+{
+    double lacking = any_lacks_level(e);
+    if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
+    e->lacking = lacking > 0;
+    e->level_free = false;
+}
+
+mps_status mps__levels_find(mps__ppe *e, const int64_t *id, int32_t *singular)
 {
     mps__ranks none = {.context = e->context, .count = 1};
     mps__ranks *ranks = e->ghosts ? e->ghosts->ranks : &none;
@@ -182,14 +244,4 @@ static mps_status find_levels(mps__ppe *e, const int64_t *id, int32_t *singular)
     e->level_free = largest_is_free(&e->sets);
     *singular = balance(e, label);
     return MPS_OK;
-}
-
-mps_status mps__levels_find(mps__ppe *e, const int64_t *id, const mps_parallel *parallel,
-                            int32_t *singular)
-{
-    double lacking = !all_have_level(e, parallel);
-    if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
-    e->level_free = false;
-    *singular = 0;
-    return lacking > 0 ? find_levels(e, id, singular) : MPS_OK;
 }

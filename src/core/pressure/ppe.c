@@ -3,13 +3,11 @@
 #include "ppe.h"
 #include "levels.h"
 #include "loop.h"
+#include "scan.h"
 #include <math.h>
 #include <mps/stage.h>
 #include <mps/operators.h>
 #include <string.h>
-
-/* Blocks of scratch; levels.c and ppe_ranks.c take the next ones. */
-enum { VALUES, COLUMNS, ROWS, LAWS };
 
 void mps__ppe_init(mps__ppe *e, mps__context *context)
 {
@@ -72,6 +70,13 @@ static inline bool is_unknown(const assembly *a, int64_t i)
            a->condition[i] != MPS_ROW_FIXED;
 }
 
+/* A block of scratch where the equation is. */
+static void *take(mps__ppe *e, int32_t block, int64_t count, size_t size)
+{
+    return e->device ? mps__device_fit(e->device, &e->there[block], (size_t)count * size)
+                     : mps__scratch_take(e->context, e->scratch, block, count, size);
+}
+
 static double *carve(char **room, int64_t count)
 {
     double *array = (double *)(void *)*room;
@@ -86,69 +91,104 @@ static int32_t *carve_numbers(char **room, int64_t count)
     return array;
 }
 
-/* Arrays of the rows, all in one block: those of eight bytes first. */
-static mps_status reserve_rows(mps__ppe *e, const mps_view *s)
+/* Arrays of the rows, all in one block: those of eight bytes first. Row starts have room to be summed. */
+mps_status mps__ppe_reserve_rows(mps__ppe *e, int32_t dim)
 {
-    const int64_t n = e->n, all = e->columns, late = e->spare ? 0 : 2 * n + (1 + s->dim) * all;
-    char *room = mps__scratch_take(e->context, e->scratch, ROWS,
-                                   2 * (4 * n + late + 1) + 2 * all + s->n, sizeof(int32_t));
+    const bool spared = e->spare && !e->device;
+    const int64_t n = e->n, all = e->columns, starts = 1 + mps__scan_room(n),
+                  late = spared ? 0 : 2 * n + (1 + dim) * all;
+    char *room = take(e, MPS__PPE_ROWS, 2 * (3 * n + starts + late) + 2 * all + e->particles,
+                      sizeof(int32_t));
     if (!room) return MPS_E_NOMEM;
     e->diagonal = carve(&room, n);
     e->rhs = carve(&room, n);
     e->shift = carve(&room, n);
-    e->row = (int64_t *)(void *)carve(&room, n + 1);
-    e->x = e->spare ? e->spare_x : carve(&room, all * s->dim);
-    char *spare = e->spare ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
+    e->row = (int64_t *)(void *)carve(&room, starts);
+    e->x = spared ? e->spare_x : carve(&room, all * dim);
+    char *spare = spared ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
     e->weight = carve(&spare, n);
     e->p = carve(&spare, all);
     e->component = carve_numbers(&spare, n);
     e->queue = carve_numbers(&spare, n);
     e->particle = carve_numbers(&room, all);
     e->order = carve_numbers(&room, all);
-    e->unknown = carve_numbers(&room, s->n);
+    e->unknown = carve_numbers(&room, e->particles);
     return MPS_OK;
 }
 
-/* Room for laws of gases, where any row has one. */
-static mps_status reserve_laws(mps__ppe *e, const assembly *a, int64_t particles)
+MPS_ROW bool has_law(const assembly *a, int64_t i)
 {
-    bool any = false;
-    e->gas = e->law = NULL;
-    for (int64_t i = 0; i < particles && !any; i++)
-        any = a->law[i] > 0 && a->gain * a->gas[i] > 0 && is_unknown(a, i);
-    if (!any) return MPS_OK;
-    e->gas = mps__scratch_take(e->context, e->scratch, LAWS, 2 * e->n, sizeof *e->gas);
+    return a->law[i] > 0 && a->gain * a->gas[i] > 0 && is_unknown(a, i);
+}
+MPS__FIRST(rows_with_law, has_law, assembly)
+
+mps_status mps__ppe_reserve_laws(mps__ppe *e)
+{
+    e->gas = take(e, MPS__PPE_LAWS, 2 * e->n, sizeof *e->gas);
     if (!e->gas) return MPS_E_NOMEM;
     e->law = e->gas + e->n;
     return MPS_OK;
 }
 
-/* Unknowns of this rank, and of others. */
-MPS_ROW void unknown_row(const int dim, const assembly *a, int64_t i, double *count)
+/* Unknowns of this rank, and of others so many times: one number counts both. */
+#define OTHERS (INT64_C(1) << 32)
+
+/* Sums of these up to a particle are its number. */
+typedef struct numbering {
+    assembly terms;
+    int64_t *number; /* [particles] */
+    int64_t rows;
+    int32_t *unknown, *particle;
+} numbering;
+
+MPS_ROW void mark_row(const int dim, const numbering *f, int64_t i)
 {
+    const assembly *a = &f->terms;
     (void)dim;
-    if (is_unknown(a, i)) count[!mps__owns(a->ghost, i)] = 1;
+    f->number[i] = !is_unknown(a, i) ? 0 : mps__owns(a->ghost, i) ? 1 : OTHERS;
 }
-MPS__VALUES(unknown_rows, unknown_row, assembly, 2, 0)
+MPS__LOOP(mark_rows, mark_row, numbering)
 
 /* Unknowns in the order of the particles, behind them those of other ranks. */
-static mps_status number_rows(mps__ppe *e, const mps_view *s, const assembly *a)
+MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
 {
-    mps_exact count[2] = {{{0}, 0, 0}};
-    int64_t rows = 0;
-    double none[1];
-    mps__values_run(a->pairs.parallel, &unknown_rows, MPS__ANY_DIM, s->n, a, count, none);
-    e->n = (int64_t)mps_exact_value(&count[0]);
-    e->columns = e->n + (int64_t)mps_exact_value(&count[1]);
-    int64_t column = e->n;
-    MPS__TRY(reserve_rows(e, s));
-    for (int64_t i = 0; i < s->n; i++) {
-        const bool solved = is_unknown(a, i);
-        int64_t *next = mps__owns(a->ghost, i) ? &rows : &column;
-        e->unknown[i] = solved ? (int32_t)*next : -1;
-        if (solved) e->particle[(*next)++] = (int32_t)i;
-    }
-    return reserve_laws(e, a, s->n);
+    const assembly *a = &f->terms;
+    const int64_t up_to = f->number[i],
+                  place = mps__owns(a->ghost, i) ? up_to % OTHERS : f->rows + up_to / OTHERS;
+    const bool solved = is_unknown(a, i);
+    (void)dim;
+    f->unknown[i] = solved ? (int32_t)place - 1 : -1;
+    if (solved) f->particle[place - 1] = (int32_t)i;
+}
+MPS__LOOP(number_rows, number_row, numbering)
+
+/* The last of sums, from where they are; 0 if a device has failed. */
+static int64_t last_of(const mps__ppe *e, const int64_t *sums, int64_t count)
+{
+    int64_t last = 0;
+    if (count > 0 && e->device)
+        mps__device_download(e->device, &last, sums + count - 1, sizeof last);
+    else if (count > 0)
+        last = sums[count - 1];
+    return last;
+}
+
+static mps_status find_unknowns(mps__ppe *e, const mps_view *s, assembly *a)
+{
+    const mps_parallel *parallel = e->parallel;
+    numbering f = {.terms = *a};
+    f.number = take(e, MPS__PPE_VALUES, mps__scan_room(s->n), sizeof *f.number);
+    if (!f.number) return MPS_E_NOMEM;
+    mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
+    mps__scan(parallel, f.number, s->n);
+    const int64_t all = last_of(e, f.number, s->n);
+    e->n = f.rows = all % OTHERS;
+    e->columns = e->n + all / OTHERS;
+    MPS__TRY(mps__ppe_reserve_rows(e, s->dim));
+    a->unknown = f.unknown = e->unknown;
+    a->particle = f.particle = e->particle;
+    mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
+    return MPS_OK;
 }
 
 /* Entries of row r beside the diagonal. */
@@ -163,16 +203,17 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
         count += a->unknown[j] >= 0 && (a->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
     }
     a->row[r + 1] = count;
+    if (r == 0) a->row[0] = 0;
 }
 MPS__LOOP(count_rows, count_row, assembly)
 
-/* Row starts. Returns the entries of all. */
-static int64_t start_rows(mps__ppe *e, const assembly *a)
+/* Row starts, and the entries of all. */
+static void start_rows(mps__ppe *e, const assembly *a)
 {
-    e->row[0] = 0;
-    mps__loop_run(a->pairs.parallel, &count_rows, a->pairs.dim, e->n, a);
-    for (int64_t r = 0; r < e->n; r++) e->row[r + 1] += e->row[r];
-    return e->row[e->n];
+    if (!e->device) e->row[0] = 0; /* also where there is no row */
+    mps__loop_run(e->parallel, &count_rows, a->pairs.dim, e->n, a);
+    mps__scan(e->parallel, e->row + 1, e->n);
+    e->entries = last_of(e, e->row + 1, e->n);
 }
 
 /* Columns in the order of their particles: far rows are two sorted runs, for which insertion is short work. */
@@ -242,10 +283,10 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
 }
 MPS__LOOP(fill_rows, fill_row, assembly)
 
-static mps_status reserve_entries(mps__ppe *e, int64_t entries)
+mps_status mps__ppe_reserve_entries(mps__ppe *e)
 {
-    e->col = mps__scratch_take(e->context, e->scratch, COLUMNS, entries, sizeof *e->col);
-    e->val = mps__scratch_take(e->context, e->scratch, VALUES, entries, sizeof *e->val);
+    e->col = take(e, MPS__PPE_COLUMNS, e->entries, sizeof *e->col);
+    e->val = take(e, MPS__PPE_VALUES, e->entries, sizeof *e->val);
     return e->col && e->val ? MPS_OK : MPS_E_NOMEM;
 }
 
@@ -272,8 +313,6 @@ static assembly assembly_of(const mps__ppe *e, const mps_view *s, const mps__ppe
 /* The arrays that rows write, once there is room for them. */
 static void see_rows(assembly *a, const mps__ppe *e)
 {
-    a->unknown = e->unknown;
-    a->particle = e->particle;
     a->row = e->row;
     a->col = e->col;
     a->val = e->val;
@@ -282,18 +321,33 @@ static void see_rows(assembly *a, const mps__ppe *e)
     a->row_shift = e->shift;
     a->row_gas = e->gas;
     a->row_law = e->law;
-    a->moments = e->moments;
+    a->moments = e->moments && e->device ? e->there[MPS__PPE_MOMENTS].data : e->moments;
+}
+
+/* Room beside the matrix, where it is wanted. */
+static mps_status reserve_extras(mps__ppe *e, const mps_view *s, const assembly *a, bool linear)
+{
+    e->gas = e->law = NULL;
+    if (!linear && mps__first_run(e->parallel, &rows_with_law, s->n, a) < s->n)
+        MPS__TRY(mps__ppe_reserve_laws(e));
+    if (!e->moments || !e->device) return MPS_OK;
+    return take(e, MPS__PPE_MOMENTS, e->n * s->dim, sizeof *e->moments) ? MPS_OK : MPS_E_NOMEM;
 }
 
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
     assembly a = assembly_of(e, s, t);
-    MPS__TRY(number_rows(e, s, &a));
+    e->parallel = a.pairs.parallel;
+    e->device = mps__device_of(e->parallel);
+    e->particles = s->n;
+    MPS__TRY(find_unknowns(e, s, &a));
+    MPS__TRY(reserve_extras(e, s, &a, t->linear));
     see_rows(&a, e);
-    MPS__TRY(reserve_entries(e, start_rows(e, &a)));
+    start_rows(e, &a);
+    MPS__TRY(mps__ppe_reserve_entries(e));
     see_rows(&a, e);
-    mps__loop_run(a.pairs.parallel, &fill_rows, s->dim, e->n, &a);
-    return MPS_OK;
+    mps__loop_run(e->parallel, &fill_rows, s->dim, e->n, &a);
+    return e->device ? mps__device_status(e->device) : MPS_OK;
 }
 
 /* ---- what rows are not made of ---- */
@@ -316,33 +370,42 @@ MPS_ROW void note_row(const int dim, const notes *a, int64_t r)
 }
 MPS__LOOP(note_rows, note_row, notes)
 
+void mps__ppe_point(mps_ppe_problem *problem, const mps__ppe *e)
+{
+    problem->row = e->row;
+    problem->col = e->col;
+    problem->val = e->val;
+    problem->diagonal = e->diagonal;
+    problem->rhs = e->rhs;
+    problem->shift = e->shift;
+    problem->weight = e->weight;
+    problem->x = e->x;
+    problem->gas = e->gas;
+    problem->law = e->law;
+    problem->parallel = e->device ? &e->device->parallel : e->parallel;
+}
+
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
-    const mps_parallel *parallel = s->far.parallel;
     mps__loop_run(
-        parallel, &note_rows, s->dim, e->columns,
+        e->parallel, &note_rows, s->dim, e->columns,
         &(notes){s->x, t->pressure, e->particle, e->n, s->dt * s->dt, e->x, e->p, e->weight});
     MPS__TRY(mps__ppe_ranks_set(e));
-    int32_t singular;
-    MPS__TRY(mps__levels_find(e, s->id, parallel, &singular));
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,
                                    .n = e->n,
-                                   .row = e->row,
-                                   .col = e->col,
-                                   .val = e->val,
-                                   .diagonal = e->diagonal,
-                                   .rhs = e->rhs,
-                                   .shift = e->shift,
-                                   .weight = e->weight,
-                                   .x = e->x,
                                    .dp = s->dp,
-                                   .components = singular,
-                                   .component = singular ? e->component : NULL,
-                                   .gas = e->gas,
-                                   .law = e->law,
-                                   .parallel = parallel,
                                    .ranks = e->ranks.ranks > 1 ? &e->ranks : NULL};
+    mps__ppe_point(&e->problem, e);
+    mps__levels_look(e);
+    if (e->device) return mps__device_status(e->device);
+    return e->lacking ? mps__ppe_close(e, s) : MPS_OK;
+}
+
+mps_status mps__ppe_close(mps__ppe *e, const mps_view *s)
+{
+    MPS__TRY(mps__levels_find(e, s->id, &e->problem.components));
+    e->problem.component = e->problem.components > 0 ? e->component : NULL;
     return MPS_OK;
 }
 
@@ -364,6 +427,6 @@ MPS__LOOP(scatter_rows, scatter_row, scatter)
 
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p)
 {
-    mps__loop_run(s->far.parallel, &scatter_rows, s->dim, s->n,
+    mps__loop_run(e->parallel, &scatter_rows, s->dim, s->n,
                   &(scatter){e->unknown, t->condition, e->p, t->value, p});
 }

@@ -21,13 +21,32 @@ typedef struct mps__ppe_terms {
     const double *density, *pressure; /* [n] those before the solution */
     double *source, *shift, *value, *gas, *law;
     int32_t *condition;
+    bool linear; /* no row has the law of a gas */
 } mps__ppe_terms;
 
-/* The blocks of scratch that levels.c and ppe_ranks.c take. */
-enum { MPS__PPE_LABELS = 4, MPS__PPE_NUMBERS };
+/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last two. */
+enum {
+    MPS__PPE_VALUES,
+    MPS__PPE_COLUMNS,
+    MPS__PPE_ROWS,
+    MPS__PPE_LAWS,
+    MPS__PPE_LABELS,
+    MPS__PPE_NUMBERS,
+    MPS__PPE_MOMENTS,
+    MPS__PPE_BOUNDS,
+    MPS__PPE_BLOCKS
+};
 
+/* The equation is assembled where the loops over it run. On a device all of its arrays are there, until it comes to the host. */
 typedef struct mps__ppe {
     mps__context *context;
+    mps__device *device; /* that has the arrays; NULL: they are on the host */
+    mps__device_block there[MPS__PPE_BLOCKS];
+    /* after mps__ppe_come(): the device, rows of the particles and pressures there */
+    mps__device *left;
+    int32_t *unknown_there;
+    double *p_there;
+    const mps_parallel *parallel; /* of the loops that made them */
     mps__scratch own,
         *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
     double *spare,
@@ -35,9 +54,11 @@ typedef struct mps__ppe {
     mps__ghosts *ghosts; /* NULL: alone */
     /* on many ranks: who owns places of the lab */
     mps_status (*owner)(void *world, int64_t m, const double *x, int32_t *rank);
-    void *world;       /* its first argument */
-    int64_t n;         /* unknowns of the last assembly */
-    int64_t columns;   /* and those of other ranks that they look at, behind them */
+    void *world;     /* its first argument */
+    int64_t n;       /* unknowns of the last assembly */
+    int64_t columns; /* and those of other ranks that they look at, behind them */
+    int64_t entries; /* of the matrix */
+    int64_t particles;
     int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
     int32_t *particle; /* [columns] particle of a row or a column */
     int64_t *row;      /* [n+1] CSR beside the diagonal */
@@ -51,6 +72,7 @@ typedef struct mps__ppe {
      * the body term, an acceleration a of the tank adds a.S_i to the right side, and an angular acceleration o about a point c adds
      * o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */
     double *moments;
+    bool lacking;       /* a component here or on another rank has no level */
     int32_t *component; /* scratch unless there is one without a level: problem.component */
     bool level_free;    /* the largest component has no level */
     int32_t *queue;     /* [n] scratch */
@@ -68,13 +90,38 @@ static inline int64_t mps__ppe_rows(const mps__ppe *e)
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build a row for every unknown. */
+/* Build a row for every unknown. MPS_E_NOMEM, MPS_E_PLUGIN: of a device */
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
-/* Then what an unknown is beside its row, with the old pressures as the first guess. e->spare and e->spare_x take it. */
+/* Then what an unknown is beside its row, with the old pressures as the first guess. On the host e->spare and e->spare_x take it. Where a
+ * component lacks a level, an equation on a device has to come to the host for mps__ppe_close(). */
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
+/* Make an equation that lacks a level solvable; on the host. */
+mps_status mps__ppe_close(mps__ppe *e, const mps_view *s);
 /* What mps__ppe_note() says of ranks. ppe_ranks.c */
 mps_status mps__ppe_ranks_set(mps__ppe *e);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p);
+
+/* ---- an equation on a device (ppe_device.c) ---- */
+
+/* What a set-up of preconditioners looks at, copied to the host as it is now: what stands beside the matrix and where its rows begin, or its
+ * `entries` too. MPS_E_NOMEM, MPS_E_PLUGIN */
+mps_status mps__ppe_show(const mps__ppe *e, const mps_parallel *parallel, bool entries,
+                         mps_ppe_problem *here);
+/* All arrays are on the host from now on, */
+mps_status mps__ppe_come(mps__ppe *e);
+/* and the pressures on the device again. */
+mps_status mps__ppe_go(mps__ppe *e);
+/* Give back what is there; before the device is detached. */
+void mps__ppe_leave(mps__ppe *e, mps__device *d);
+
+/* ---- for the two files ---- */
+
+/* Room for the rows, e->n and e->columns being known, for entries of the matrix, and for laws. */
+mps_status mps__ppe_reserve_rows(mps__ppe *e, int32_t dim);
+mps_status mps__ppe_reserve_entries(mps__ppe *e);
+mps_status mps__ppe_reserve_laws(mps__ppe *e);
+/* The problem sees the arrays of the equation. */
+void mps__ppe_point(mps_ppe_problem *problem, const mps__ppe *e);
 
 #endif

@@ -260,7 +260,8 @@ static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
     mps__solvers *s = self;
     int reason = MPS_PPE_CONVERGED;
     if (!(s->again && s->ready))
-        reason = s->here ? mps__solvers_setup_there(s, problem) : s->pc->setup(s->pc_self, problem);
+        reason = mps__device_of(problem->parallel) ? mps__solvers_setup_there(s, problem)
+                                                   : s->pc->setup(s->pc_self, problem);
     s->ready = reason == MPS_PPE_CONVERGED;
     return reason;
 }
@@ -332,7 +333,9 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     else
         mps__solvers_run(s, &limited, p, result);
     mps_status status = status_of(result->reason);
-    double poison = !mps__finite(p, problem->n);
+    /* of a residual that is finite all pressures are */
+    double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
+                                                      : !mps__finite(p, problem->n);
     mps_ppe_total(problem, &(mps_exact_values){.maxima = 1, .maximum = &poison});
     if (status >= 0 && poison > 0) {
         result->reason = MPS_PPE_NAN;

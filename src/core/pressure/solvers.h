@@ -33,9 +33,11 @@ typedef struct mps__solvers {
     bool ready; /* the preconditioner is set up for the present series */
     /* of the step in progress; NULL: there is none. Solutions that can be found there are */
     mps__device *device;
-    void *room; /* of the equation there */
-    size_t room_bytes;
-    const mps_ppe_problem *here; /* while the solution is found there: the equation on the host */
+    mps__device_block room; /* of equations that are sent there */
+    /* while the solution is found there: the equation on the host, if it was sent from there; else copies what a set-up looks at */
+    const mps_ppe_problem *here;
+    int (*show)(void *owner, bool entries, mps_ppe_problem *here);
+    void *owner; /* first argument of `show` */
 } mps__solvers;
 
 /* How one matrix of a series is solved. */
@@ -67,7 +69,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
 
 /* Whether an equation is solved there. */
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
-/* Solve it there; `p` is here. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* Solve it there. Its arrays and `p` are where its parallel-for runs: on the host, or there already. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                                     mps_ppe_result *result);
 /* Set the preconditioner in use up for an equation there. Returns 0 or a reason of failure. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solution on a device: the equation goes there, and the pressures come back. */
+/* The solution on a device. An equation of the host goes there, and the pressures come back. */
 #include "solvers.h"
 
 enum { ROW, COL, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
@@ -23,18 +23,6 @@ bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
     return s->device && known && !e->ranks && !e->component && !e->law && e->n > 0;
 }
 
-/* Memory for the equation, kept from step to step. */
-static mps_status reserve(mps__solvers *s, size_t bytes)
-{
-    if (bytes <= s->room_bytes) return MPS_OK;
-    mps__device_give(s->device, s->room, s->room_bytes);
-    s->room_bytes = 0;
-    s->room = mps__device_room(s->device, bytes + bytes / 8);
-    if (!s->room) return MPS_E_NOMEM;
-    s->room_bytes = bytes + bytes / 8;
-    return MPS_OK;
-}
-
 /* @param there  out: the equation with the arrays there @param q  out: the pressures there */
 static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *p,
                        mps_ppe_problem *there, double **q)
@@ -50,9 +38,9 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
                                   numbers};
     size_t begin[ARRAYS + 1] = {0};
     for (int k = 0; k < ARRAYS; k++) begin[k + 1] = begin[k] + ((bytes[k] + 255) & ~(size_t)255);
-    const bool kept = s->again && begin[ARRAYS] <= s->room_bytes;
-    MPS__TRY(reserve(s, begin[ARRAYS]));
-    char *room = s->room;
+    const bool kept = s->again && begin[ARRAYS] <= s->room.bytes;
+    char *room = mps__device_fit(s->device, &s->room, begin[ARRAYS]);
+    if (!room) return MPS_E_NOMEM;
     for (int k = kept ? SAME : 0; k < ARRAYS; k++)
         mps__device_upload(s->device, room + begin[k], from[k], bytes[k]);
     *there = *e;
@@ -73,6 +61,10 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
 {
     mps_ppe_problem there;
     double *q;
+    if (mps__device_of(e->parallel)) {
+        mps__solvers_run(s, e, p, result);
+        return mps__device_status(s->device);
+    }
     MPS__TRY(send(s, e, p, &there, &q));
     s->here = e;
     mps__solvers_run(s, &there, q, result);
@@ -83,7 +75,9 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
 
 int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
 {
+    const mps__equation_there source = {there, s->show, s->owner};
     if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
+    if (!s->here) return mps__auxgrid_setup_there(s->pc_self, &source, s->device);
     const int reason = s->pc->setup(s->pc_self, s->here);
     return reason ? reason : mps__auxgrid_send(s->pc_self, s->device);
 }
@@ -94,8 +88,6 @@ void mps__solvers_leave(mps__solvers *s, mps__device *d)
     if (s->pc && is_jacobi(s->pc)) mps__jacobi_leave(s->pc_self);
     if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_leave(s->pc_self);
     if (s->spare_self) mps__jacobi_leave(s->spare_self);
-    if (s->room) mps__device_give(d, s->room, s->room_bytes);
-    s->room = NULL;
-    s->room_bytes = 0;
+    mps__device_leave(d, &s->room);
     s->device = NULL;
 }

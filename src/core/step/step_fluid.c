@@ -216,6 +216,7 @@ const mps__pass mps__pass_share = {.name = "share",
                                    .hook = MPS_SHIFT,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_CORRECT,
+                                   .flat = true,
                                    .undeclared = true,
                                    .run = share};
 

@@ -31,10 +31,12 @@ MPS_ROW bool has_law(const law_fields *f, int64_t i)
 MPS__FIRST(laws, has_law, law_fields)
 
 /* The law of a gas needs a solver of nonlinear rows. */
-static mps_status check_laws(const mps__step *q, const double *law)
+static mps_status check_laws(mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
-    if (!w->solvers.use->nonlinear &&
+    const bool written = mps__host_writer(&w->host, MPS__GAS_LAW) != NULL;
+    q->terms.linear = !written || !w->solvers.use->nonlinear;
+    if (written && !w->solvers.use->nonlinear &&
         mps__first_run(&w->pool.parallel, &laws, q->view.n, &(law_fields){law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
@@ -91,40 +93,65 @@ const mps__pass mps__pass_equation = {.name = "equation",
 
 /* ---- matrix and unknowns ---- */
 
+enum { REGION, CONDITION, VALUE, SOURCE, SHIFT, GAS, LAW, DENSITY, POSITION, RADIUS, WHOLE, GAIN };
+static const mps_use matrix_uses[] = {[REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                      [CONDITION] = {"pressure_condition", MPS_USE_NEIGHBOURS},
+                                      [VALUE] = {"pressure_value", MPS_USE_NEIGHBOURS},
+                                      [SOURCE] = {"pressure_source", MPS_USE_READ},
+                                      [SHIFT] = {"pressure_shift", MPS_USE_READ},
+                                      [GAS] = {"gas_shift", MPS_USE_READ},
+                                      [LAW] = {"gas_law", MPS_USE_READ},
+                                      [DENSITY] = {"density", MPS_USE_READ},
+                                      [POSITION] = {"position", MPS_USE_READ},
+                                      [RADIUS] = {"equation_radius", MPS_USE_READ},
+                                      [WHOLE] = {"equation_complete", MPS_USE_READ},
+                                      [GAIN] = {"equation_gain", MPS_USE_READ}};
+
 static mps_status fill_matrix(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
+    mps__ppe_terms terms = q->terms;
+    terms.flux = &s->view->flux;
+    terms.region = s->data[REGION];
+    terms.condition = s->data[CONDITION];
+    terms.value = s->data[VALUE];
+    terms.source = s->data[SOURCE];
+    terms.shift = s->data[SHIFT];
+    terms.gas = s->data[GAS];
+    terms.law = s->data[LAW];
+    terms.density = s->data[DENSITY];
     MPS__TRY(mps__step_mass_begin(q));
-    if (q->terms.equation.radius == MPS_NEAR || q->view.far.col == q->view.near.col)
-        mps__twins_lists_ready(&q->w->host.twins);
-    return mps__ppe_fill(&q->w->ppe, &q->view, &q->terms);
+    return mps__ppe_fill(&q->w->ppe, s->view, &terms);
 }
-
-static const mps_use matrix_uses[] = {{"position", MPS_USE_READ},
-                                      {"region", MPS_USE_NEIGHBOURS},
-                                      {"pressure_condition", MPS_USE_NEIGHBOURS},
-                                      {"pressure_value", MPS_USE_NEIGHBOURS},
-                                      {"pressure_source", MPS_USE_READ},
-                                      {"pressure_shift", MPS_USE_READ},
-                                      {"gas_shift", MPS_USE_READ},
-                                      {"gas_law", MPS_USE_READ},
-                                      {"density", MPS_USE_READ},
-                                      {"equation_radius", MPS_USE_READ},
-                                      {"equation_complete", MPS_USE_READ},
-                                      {"equation_gain", MPS_USE_READ}};
 
 const mps__pass mps__pass_matrix = {.name = "matrix",
                                     .hook = MPS_SOURCE,
                                     .place = MPS__AFTER_MODELS,
                                     .stage = MPS_STAGE_PPE_SETUP,
+                                    .flat = true,
                                     .use_count = sizeof matrix_uses / sizeof matrix_uses[0],
                                     .uses = matrix_uses,
                                     .run = fill_matrix};
 
+/* On the host. */
+static mps_status close_levels(mps_stage *s)
+{
+    mps__ppe *e = &mps__step_of(s)->w->ppe;
+    const mps_view *there = mps__host_begin_serial(s);
+    mps_status status = mps__ppe_come(e);
+    if (status == MPS_OK) status = mps__ppe_close(e, s->view);
+    mps__host_end_serial(s, there);
+    return status;
+}
+
 static mps_status note_unknowns(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    MPS__TRY(mps__ppe_note(&q->w->ppe, &q->view, &q->terms));
+    mps__ppe *e = &q->w->ppe;
+    mps__ppe_terms terms = q->terms;
+    terms.pressure = s->data[0];
+    MPS__TRY(mps__ppe_note(e, s->view, &terms));
+    if (e->device && e->lacking) MPS__TRY(close_levels(s));
     note_level(q);
     return MPS_OK;
 }
@@ -137,28 +164,40 @@ const mps__pass mps__pass_unknowns = {.name = "unknowns",
                                       .hook = MPS_SOURCE,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_PPE_SETUP,
+                                      .flat = true,
                                       .use_count = 3,
                                       .uses = unknown_uses,
                                       .run = note_unknowns};
 
 /* ---- solution ---- */
 
-static mps_status solve_equation(mps__step *q)
+/* The text of a solution that failed. A NaN of the prediction has a particle and a place. */
+static mps_status tell_failure(mps_stage *s, mps_status status)
 {
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    if (status == MPS_E_SOLVER) {
+        const mps_view *there = w->ppe.device ? mps__host_begin_serial(s) : NULL;
+        mps__twins_fields_ready(&w->host.twins);
+        const mps_status found = mps__world_check_result(w, &q->view, false, &q->info);
+        if (there) mps__host_end_serial(s, there);
+        MPS__TRY(found);
+    }
+    return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
+}
+
+/* The equation as it is in w->ppe; its terms are at the same place. */
+static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
+{
+    mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps_ppe_result result = {.struct_size = sizeof result};
     mps_status status = MPS_OK;
-    w->bounds.held = w->particles.held;
+    w->bounds.held = mps__seen(w, w->particles.held);
     w->bounds.solves = 0;
     if (mps__ppe_rows(&w->ppe) > 0)
-        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, &q->view, &q->terms, &result);
-    /* a NaN of the prediction has a particle and a place */
-    if (status == MPS_E_SOLVER) {
-        mps__twins_fields_ready(&w->host.twins);
-        MPS__TRY(mps__world_check_result(w, &q->view, false, &q->info));
-    }
-    if (status < 0)
-        return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
+        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
+    if (status < 0) return tell_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
     if (q->not_converged)
         mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->view.t, w->context->error);
@@ -174,45 +213,87 @@ static mps_status solve_equation(mps__step *q)
                : MPS_OK;
 }
 
-/* The host has the equation and takes the pressures; between both the device solves where it can. */
+enum { LEAST, CONDITIONS };
+static const mps_use solve_uses[] = {[LEAST] = {"pressure_value", MPS_USE_READ},
+                                     [CONDITIONS] = {"pressure_condition", MPS_USE_CHANGE},
+                                     {"unknown_numbers", MPS_USE_CHANGE},
+                                     {"unknown_places", MPS_USE_READ}};
+
+/* What a preconditioner that the host sets up looks at. */
+static int show_equation(void *owner, bool entries, mps_ppe_problem *here)
+{
+    const mps__world *w = owner;
+    return mps__ppe_show(&w->ppe, &w->host.twins.host_parallel, entries, here) < 0;
+}
+
+/* Whether the equation is solved where it is. The added mass needs it on the host. */
+static bool stays(const mps__step *q)
+{
+    const mps__world *w = q->w;
+    return !w->solvers.device || (w->ppe.device && q->load.what != MPS_LOAD_MASS &&
+                                  mps__solvers_there(&w->solvers, &w->ppe.problem));
+}
+
+/* The equation comes to the host, and the pressures go back, and what was made of conditions. */
+static mps_status solve_here(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    mps__twins *t = &w->host.twins;
+    const mps_view *there = mps__host_begin_serial(s);
+    mps_status status = w->ppe.device ? mps__ppe_come(&w->ppe) : MPS_OK;
+    mps__twins_ready(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
+    mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
+    mps__twins_ready(t, MPS__PRESSURE_DENSITY, MPS__ON_HOST);
+    if (status == MPS_OK) status = solve_equation(s, &q->terms);
+    mps__twins_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
+    mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);
+    mps__host_end_serial(s, there);
+    return status == MPS_OK ? mps__ppe_go(&w->ppe) : status;
+}
+
 static mps_status solve(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    q->w->solvers.device = mps__twins_device(&q->w->host.twins);
-    const mps_status status = solve_equation(q);
-    q->w->solvers.device = NULL;
+    mps__solvers *solvers = &q->w->solvers;
+    mps__ppe_terms terms = q->terms;
+    terms.flux = &s->view->flux;
+    terms.value = s->data[LEAST];
+    terms.condition = s->data[CONDITIONS];
+    solvers->device = mps__twins_device(&q->w->host.twins);
+    solvers->show = show_equation;
+    solvers->owner = q->w;
+    const mps_status status = stays(q) ? solve_equation(s, &terms) : solve_here(s);
+    solvers->device = NULL;
     return status;
 }
-
-static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},
-                                     {"pressure_condition", MPS_USE_CHANGE},
-                                     {"unknown_numbers", MPS_USE_CHANGE},
-                                     {"unknown_places", MPS_USE_READ}};
 
 const mps__pass mps__pass_solve = {.name = "solve",
                                    .hook = MPS_SOURCE,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_PPE_SOLVE,
+                                   .flat = true,
                                    .use_count = 4,
                                    .uses = solve_uses,
                                    .run = solve};
 
 static mps_status scatter_pressures(mps_stage *s)
 {
-    mps__step *q = mps__step_of(s);
-    mps__ppe_scatter(&q->w->ppe, &q->view, &q->terms, s->data[0]);
+    const mps__ppe_terms terms = {.condition = s->data[1], .value = s->data[2]};
+    mps__ppe_scatter(&mps__step_of(s)->w->ppe, s->view, &terms, s->data[0]);
     return MPS_OK;
 }
 
 static const mps_use pressure_uses[] = {{"pressure", MPS_USE_WRITE},
-                                        {"unknown_numbers", MPS_USE_READ},
                                         {"pressure_condition", MPS_USE_READ},
-                                        {"pressure_value", MPS_USE_READ}};
+                                        {"pressure_value", MPS_USE_READ},
+                                        {"unknown_numbers", MPS_USE_READ}};
 
 const mps__pass mps__pass_pressures = {.name = "pressures",
                                        .hook = MPS_SOURCE,
                                        .place = MPS__AFTER_MODELS,
                                        .stage = MPS_STAGE_PPE_SOLVE,
+                                       .flat = true,
                                        .use_count = 4,
                                        .uses = pressure_uses,
                                        .run = scatter_pressures};

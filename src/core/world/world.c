@@ -65,6 +65,7 @@ void mps__world_spacing(mps__world *w, double dp)
 void mps__world_free(mps__world *w)
 {
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
+    mps__ppe_leave(&w->ppe, &w->host.twins.device);
     mps__twins_free(&w->host.twins);
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->lists.neighbours);

@@ -223,6 +223,8 @@ void mps__world_take_back(mps__world *w);
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh; at the device of a step, if it has them. world_rows.c */
 mps_status mps__world_rows(mps__world *w);
+/* Whether the device of the step in progress has the lists of the last search. */
+bool mps__world_rows_there(const mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */

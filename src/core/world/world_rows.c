@@ -4,7 +4,7 @@
 #include "scan.h"
 
 /* The host's lists are an older parting of the same candidates as long as the device has newer ones: still right to begin from. */
-static bool device_has(const mps__world *w)
+bool mps__world_rows_there(const mps__world *w)
 {
     const mps__twins *t = &w->host.twins;
     const mps_neighbours *l = &w->lists.neighbours;
@@ -29,7 +29,7 @@ static mps_status rows_there(mps__world *w)
 
 mps_status mps__world_rows(mps__world *w)
 {
-    if (device_has(w)) return rows_there(w);
+    if (mps__world_rows_there(w)) return rows_there(w);
     w->host.twins.listed = -1;
     mps__plates_look(w);
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
@@ -51,6 +51,7 @@ static mps_status show_lists(mps__world *w)
     MPS__TRY(mps__twins_block(t, MPS__ROWS_COUNT, l->count, n, sizeof *l->count, true));
     MPS__TRY(mps__twins_block(t, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col, true));
     MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
+    MPS__TRY(mps__twins_block(t, MPS__RIM_ROWS, l->rim, n, sizeof *l->rim, true));
     t->listed = l->searches;
     return MPS_OK;
 }

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Least pressures in an equation on a device: the steps of bounds.c for all rows at once. A row looks whether it is held and which of its
+ * columns are; what it changes it keeps beside itself. */
+#include "bounds.h"
+#include "loop.h"
+#include <math.h>
+
+/* Held, at a pressure that there is. */
+MPS_ROW bool is_pinned(const mps__bound_rows *f, int64_t r)
+{
+    return f->held[r] && isfinite(f->least[r]);
+}
+
+MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
+{
+    const int64_t i = f->particle[r];
+    const bool bounded = f->condition[i] == MPS_ROW_LEAST;
+    (void)dim;
+    f->least[r] = bounded ? f->value[i] : NAN;
+    f->margin[r] = f->nearly * f->density[i] * f->speed * f->speed;
+    f->bounded[r] = bounded;
+    f->held[r] = bounded && f->held_before[i] != 0;
+}
+MPS__LOOP(begin_rows, begin_row, mps__bound_rows)
+
+MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
+{
+    const bool own = is_pinned(f, r);
+    double rhs = f->rhs[r], shift = f->shift[r];
+    bool changed = own;
+    (void)dim;
+    f->kept_rhs[r] = rhs;
+    f->kept_shift[r] = shift;
+    for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) {
+        const int64_t c = f->col[p];
+        const bool pinned = is_pinned(f, c);
+        const double kij = -(double)f->val[p];
+        f->kept[p] = f->val[p];
+        if (kij == 0 || !(own || pinned)) continue;
+        changed = true;
+        f->val[p] = 0;
+        if (own) continue;
+        rhs += kij * f->least[c];
+        shift += kij;
+    }
+    f->changed[r] = changed;
+    if (!changed) return;
+    f->shift[r] = own ? f->diagonal[r] : shift;
+    f->rhs[r] = own ? f->diagonal[r] * f->least[r] : rhs;
+}
+MPS__LOOP(pin_rows, pin_row, mps__bound_rows)
+
+/* The row as it was assembled, to the bit. */
+MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
+{
+    (void)dim;
+    if (!f->changed[r]) return;
+    f->rhs[r] = f->kept_rhs[r];
+    f->shift[r] = f->kept_shift[r];
+    for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) f->val[p] = f->kept[p];
+}
+MPS__LOOP(free_rows, free_row, mps__bound_rows)
+
+MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
+{
+    double sum = f->diagonal[r] * f->p[r] - f->rhs[r];
+    for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) sum += (double)f->val[p] * f->p[f->col[p]];
+    return sum;
+}
+
+/* The maximum: whether the set has changed. */
+MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, double *changed)
+{
+    (void)dim;
+    if (!f->bounded[r]) return;
+    const bool held = f->held[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
+                                 : f->p[r] < f->least[r] - f->margin[r];
+    if (held != f->held[r]) changed[0] = 1;
+    f->held[r] = held;
+}
+MPS__VALUES(choose_rows, choose_row, mps__bound_rows, 0, 1)
+
+MPS_ROW void tell_row(const int dim, const mps__bound_rows *f, int64_t r)
+{
+    (void)dim;
+    if (f->held[r]) f->condition[f->particle[r]] = MPS__ROW_HELD;
+}
+MPS__LOOP(tell_rows, tell_row, mps__bound_rows)
+
+static void run(const mps__bounds *b, const mps__ppe *e, const mps__loop *loop)
+{
+    mps__loop_run(e->parallel, loop, MPS__ANY_DIM, e->n, &b->rows);
+}
+
+/* Room for what a row has, in one block: numbers of eight bytes first. */
+static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
+{
+    const size_t n = (size_t)e->n, entries = (size_t)e->entries,
+                 bytes = 4 * n * sizeof(double) + entries * sizeof *f->kept +
+                         3 * n * sizeof *f->held;
+    f->least = mps__device_fit(e->device, &e->there[MPS__PPE_BOUNDS], bytes);
+    if (!f->least) return MPS_E_NOMEM;
+    f->margin = f->least + n;
+    f->kept_rhs = f->margin + n;
+    f->kept_shift = f->kept_rhs + n;
+    f->kept = (float *)(void *)(f->kept_shift + n);
+    f->bounded = (uint8_t *)(void *)(f->kept + entries);
+    f->held = f->bounded + n;
+    f->changed = f->held + n;
+    return MPS_OK;
+}
+
+mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *s,
+                                   const mps__ppe_terms *t)
+{
+    b->rows = (mps__bound_rows){.row = e->row,
+                                .col = e->col,
+                                .val = e->val,
+                                .particle = e->particle,
+                                .diagonal = e->diagonal,
+                                .rhs = e->rhs,
+                                .shift = e->shift,
+                                .p = e->p,
+                                .value = t->value,
+                                .density = t->flux->density,
+                                .condition = t->condition,
+                                .held_before = b->held,
+                                .nearly = MPS__BOUNDS_NEARLY,
+                                .speed = s->velocity_scale};
+    MPS__TRY(reserve(&b->rows, e));
+    run(b, e, &begin_rows);
+    return MPS_OK;
+}
+
+void mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e)
+{
+    run(b, e, &pin_rows);
+}
+
+void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e)
+{
+    run(b, e, &free_rows);
+}
+
+bool mps__bounds_choose_there(const mps__bounds *b, const mps__ppe *e)
+{
+    double changed = 0;
+    mps__values_run(e->parallel, &choose_rows, MPS__ANY_DIM, e->n, &b->rows, NULL, &changed);
+    return changed > 0;
+}
+
+void mps__bounds_tell_there(const mps__bounds *b, const mps__ppe *e)
+{
+    run(b, e, &tell_rows);
+}
