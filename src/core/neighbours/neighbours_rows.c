@@ -89,12 +89,10 @@ MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
 #ifdef MPS_DEVICE
 /* A device has no room for buffers: each candidate goes up the row to its place. Most stay where they are. */
 
-/* 0: near, 1: within reach, 2: out of it. */
 MPS_ROW int ring_of(const int dim, const exact *l, int64_t i, int32_t j)
 {
-    const mps__rings *g = &l->rings;
-    const double r2 = mps__square_between(l->x + i * dim, l->x + (int64_t)j * dim, dim);
-    return r2 >= g->least && r2 < g->far2 ? r2 >= g->near2 : 2;
+    return mps__ring_of(&l->rings,
+                        mps__square_between(l->x + i * dim, l->x + (int64_t)j * dim, dim));
 }
 
 MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)

@@ -223,6 +223,13 @@ void mps__world_take_back(mps__world *w);
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh; at the device of a step, if it has them. world_rows.c */
 mps_status mps__world_rows(mps__world *w);
+/* The order of the cells: in the list, and where a device made it, in `there`; NULL: the host did. world_rows.c */
+mps_status mps__world_order(mps__world *w, const int32_t **there);
+/* Candidates of particles that are in the order of their cells, where there are no plates, found at the device of a step; `found` is false
+ * if they are to be found on the host. world_rows.c */
+mps_status mps__world_search_there(mps__world *w, bool *found);
+/* Whether the device of a step has those lists. */
+bool mps__world_rows_there(const mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */
