@@ -215,6 +215,25 @@ static void long_rows_stay_on_the_host(void **state)
     mps_sim_destroy(sim);
 }
 
+/* What thin plates hide is taken out of rows of the device, which no list of the host takes the place of. */
+static void plates_hide_on_the_device(void **state)
+{
+    mps_sim *host = plate(), *sim = plate();
+    const mps_neighbours *l = &sim->world.lists.neighbours;
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    for (int k = 0; k < 40 && l->searches < 6; k++) {
+        go(host, 1);
+        go(sim, 1);
+        assert_true(sim->world.host.twins.listed == l->searches);
+        same(host, sim);
+    }
+    assert_true(l->searches >= 6 && sim->world.lists.screens.seers > 0);
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+}
+
 /* ---- what a step costs ---- */
 
 static void note(void *user, int level, const char *text)
@@ -329,6 +348,7 @@ int main(void)
         cmocka_unit_test(failing_devices),
         cmocka_unit_test(own_kernel_stays_on_the_host),
         cmocka_unit_test(long_rows_stay_on_the_host),
+        cmocka_unit_test(plates_hide_on_the_device),
         cmocka_unit_test(costs),
         cmocka_unit_test(searches_copy_little),
     };

@@ -10,7 +10,7 @@
 
 enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES };
 
-/* Arrays of a step that are neither channels nor fields: lists of neighbours, wetted areas that have turned. */
+/* Arrays of a step that are neither channels nor fields: lists of neighbours, what thin plates hide, wetted areas that have turned. */
 enum {
     MPS__ROWS_BEGIN,
     MPS__ROWS_MIDDLE,
@@ -18,12 +18,15 @@ enum {
     MPS__ROWS_COUNT,
     MPS__ROWS_COLUMNS,
     MPS__IDLE_ROWS,
+    MPS__SEER_SLOTS,
     MPS__RIM_ROWS, /* the last that comes to the host */
     MPS__LASTING,  /* those before it stay until the next search; the others live for a step */
     MPS__NEAR_BEGIN = MPS__LASTING,
     MPS__NEAR_COLUMNS,
     MPS__NEAR_WEIGHTS,
     MPS__TURNED_AREAS,
+    MPS__SCREEN_LIST,
+    MPS__SEER_LIST,
     MPS__BLOCKS
 };
 

@@ -119,11 +119,15 @@ typedef struct mps__row_arrays {
     const int32_t *count;
     int64_t *middle, *end;
     int32_t *col;
+    const mps__screen *screen; /* of the screens, if there are any */
+    const mps__seer *seer;
+    const int32_t *slot;
 } mps__row_arrays;
-/* The same with arrays that are elsewhere. Only where no row is too long for the stack, and without screens. */
+/* The same with arrays that are elsewhere. Only where no row is too long for the stack. */
 void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__row_arrays *there);
 /* Take what screens hide out of rows that are exact. */
 void mps__neighbours_hide(mps_neighbours *l);
+void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there);
 /* Set near_begin from the rows; the arrays are those of the list where loops run. */
 void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,
                           int64_t *near_begin);

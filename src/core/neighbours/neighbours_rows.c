@@ -195,13 +195,26 @@ MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 }
 MPS__LOOP(hide_rows, hide_row, hiding)
 
-void mps__neighbours_hide(mps_neighbours *l)
+void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there)
 {
     const mps__screens *s = l->screens;
     if (!s || s->count == 0) return;
-    mps__loop_run(
-        l->parallel, &hide_rows, l->dim, s->seers,
-        &(hiding){s->list, s->count, s->seer, s->slot, l->begin, l->middle, l->end, l->col});
+    mps__loop_run(l->parallel, &hide_rows, l->dim, s->seers,
+                  &(hiding){there->screen, s->count, there->seer, there->slot, there->begin,
+                            there->middle, there->end, there->col});
+}
+
+void mps__neighbours_hide(mps_neighbours *l)
+{
+    const mps__screens *s = l->screens;
+    if (!s) return;
+    mps__neighbours_hide_there(l, &(mps__row_arrays){.begin = l->begin,
+                                                     .middle = l->middle,
+                                                     .end = l->end,
+                                                     .col = l->col,
+                                                     .screen = s->list,
+                                                     .seer = s->seer,
+                                                     .slot = s->slot});
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
@@ -224,6 +237,7 @@ void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__r
     rows.end = there->end;
     rows.col = there->col;
     mps__loop_run(l->parallel, &exact_rows, l->dim, l->n, &rows);
+    mps__neighbours_hide_there(l, there);
 }
 
 /* Near pairs of a row, one place on: a sum over these up to a row is the begin of the row. */

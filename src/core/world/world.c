@@ -236,13 +236,17 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
                                   w->setup.re_far);
 }
 
-/* The same without idle solids. */
+/* The same without idle solids, on the host or at the device of a step; and what plates hide. */
 static mps_status search_active(mps__world *w, bool sorted)
 {
-    bool found = false;
+    bool there = false;
     choose_rows(w, false);
-    if (sorted) MPS__TRY(mps__world_search_there(w, &found));
-    return found ? MPS_OK : search_lists(w, sorted, false);
+    if (sorted) MPS__TRY(mps__world_search_there(w, &there));
+    if (!there) MPS__TRY(search_lists(w, sorted, false));
+    MPS__TRY(mps__plates_find(w));
+    if (there) return mps__world_hide_there(w);
+    mps__neighbours_hide(&w->lists.neighbours);
+    return MPS_OK;
 }
 
 /* New lists, with exact rows. */
@@ -254,8 +258,6 @@ static mps_status search(mps__world *w, bool sorted)
         status = link_solids(w);
     }
     if (status == MPS_OK) status = search_active(w, sorted);
-    if (status == MPS_OK) status = mps__plates_find(w);
-    if (status == MPS_OK) mps__neighbours_hide(&w->lists.neighbours);
     if (status < 0) w->lists.neighbours.valid = false;
     if (status == MPS_OK) w->lists.listed = w->particles.generation;
     return status;

@@ -6,8 +6,7 @@
 /* Whether the device of a step finds rows. */
 static bool device_finds(const mps__world *w)
 {
-    return w->host.twins.step && w->lists.screens.count == 0 &&
-           w->setup.kernel.id != MPS_KERNEL_CUSTOM;
+    return w->host.twins.step && w->setup.kernel.id != MPS_KERNEL_CUSTOM;
 }
 
 /* The host's lists are an older parting of the same candidates as long as the device has newer ones: still right to begin from. */
@@ -131,26 +130,71 @@ mps_status mps__world_search_there(mps__world *w, bool *found)
 
 /* ---- rows ---- */
 
+/* Numbers of 8 bytes. */
+static mps_status make_structs(mps__world *w, int32_t block, void *host, int64_t count, size_t size)
+{
+    return mps__twins_block(&w->host.twins, block, host, count * (int64_t)(size / 8), 8, true);
+}
+
+/* Screens, and particles near them where they are now. */
+static mps_status make_screens(mps__world *w)
+{
+    const mps__screens *p = &w->lists.screens;
+    MPS__TRY(make_structs(w, MPS__SCREEN_LIST, p->list, p->count, sizeof *p->list));
+    return make_structs(w, MPS__SEER_LIST, p->seer, p->seers, sizeof *p->seer);
+}
+
+static mps_status make_slots(mps__world *w)
+{
+    const mps__screens *p = &w->lists.screens;
+    return mps__twins_block(&w->host.twins, MPS__SEER_SLOTS, p->slot, w->particles.n,
+                            sizeof *p->slot, true);
+}
+
+/* Arrays for rows that change. */
+static mps__row_arrays arrays_there(mps__world *w)
+{
+    mps__twins *t = &w->host.twins;
+    const mps_neighbours *l = &w->lists.neighbours;
+    const mps__screens *p = &w->lists.screens;
+    return (mps__row_arrays){.x = mps__seen(w, w->particles.x),
+                             .begin = mps__seen(w, l->begin),
+                             .count = mps__seen(w, l->count),
+                             .middle = mps__twins_given(t, l->middle, false),
+                             .end = mps__twins_given(t, l->end, false),
+                             .col = mps__twins_given(t, l->col, false),
+                             .screen = mps__seen(w, p->list),
+                             .seer = mps__seen(w, p->seer),
+                             .slot = mps__seen(w, p->slot)};
+}
+
+mps_status mps__world_hide_there(mps__world *w)
+{
+    mps__twins *t = &w->host.twins;
+    if (w->lists.screens.count == 0) return MPS_OK;
+    MPS__TRY(mps__twins_enter(t));
+    MPS__TRY(make_screens(w));
+    MPS__TRY(make_slots(w));
+    const mps__row_arrays there = arrays_there(w);
+    mps__neighbours_hide_there(&w->lists.neighbours, &there);
+    return mps__twins_leave(t);
+}
+
 static mps_status rows_there(mps__world *w)
 {
     mps__twins *t = &w->host.twins;
-    mps_neighbours *l = &w->lists.neighbours;
     MPS__TRY(mps__twins_enter(t));
-    const mps__row_arrays there = {.x = mps__seen(w, w->particles.x),
-                                   .begin = mps__seen(w, l->begin),
-                                   .count = mps__seen(w, l->count),
-                                   .middle = mps__twins_given(t, l->middle, false),
-                                   .end = mps__twins_given(t, l->end, false),
-                                   .col = mps__twins_given(t, l->col, false)};
-    mps__neighbours_rows_there(l, w->particles.x, &there);
+    MPS__TRY(make_screens(w));
+    const mps__row_arrays there = arrays_there(w);
+    mps__neighbours_rows_there(&w->lists.neighbours, w->particles.x, &there);
     return mps__twins_leave(t);
 }
 
 mps_status mps__world_rows(mps__world *w)
 {
+    mps__plates_look(w);
     if (mps__world_rows_there(w)) return rows_there(w);
     w->host.twins.listed = -1;
-    mps__plates_look(w);
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
     return MPS_OK;
 }
@@ -164,6 +208,7 @@ static mps_status show_lists(mps__world *w)
     mps__twins_rows_drop(t);
     MPS__TRY(make_lists(w, true));
     MPS__TRY(make_columns(w, true));
+    if (w->lists.screens.count > 0) MPS__TRY(make_slots(w));
     t->listed = l->searches;
     return MPS_OK;
 }
