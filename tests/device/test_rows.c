@@ -4,7 +4,7 @@
 #include "checkpoint_fixture.h"
 #include "launch.h"
 #include "loops.h"
-#include "scan.h"
+#include "search_fixture.h"
 
 static opencl device;
 
@@ -199,6 +199,21 @@ static void scans_of_any_size(void **state)
     assert_string_equal(device.difference, "");
 }
 
+/* ---- order of particles, candidates of neighbours ---- */
+
+static void searches_of_any_size(void **state)
+{
+    static const int64_t size[] = {0, 1, 63, 64, 65, 1023, 1025, 100000};
+    (void)state;
+    for (int k = 0; k < 8; k++)
+        for (int32_t dim = 2; dim <= 3; dim++) {
+            loops_watch(&device);
+            search_both(dim, size[k], k & 1, k & 2);
+            loops_watch(NULL);
+        }
+    assert_string_equal(device.difference, "");
+}
+
 /* ---- what the comparison is for ---- */
 
 /* The text of a host that does something else. */
@@ -257,10 +272,15 @@ static void a_difference_is_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),  cmocka_unit_test(scans_of_any_size),
-        cmocka_unit_test(presets),           cmocka_unit_test(several_grids),
-        cmocka_unit_test(other_scenes),      cmocka_unit_test(all_models),
-        cmocka_unit_test(kernels_are_there), cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),
+        cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(searches_of_any_size),
+        cmocka_unit_test(presets),
+        cmocka_unit_test(several_grids),
+        cmocka_unit_test(other_scenes),
+        cmocka_unit_test(all_models),
+        cmocka_unit_test(kernels_are_there),
+        cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);

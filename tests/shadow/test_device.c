@@ -136,18 +136,30 @@ static void fail_each(mps_sim *host, mps_sim *sim, const int64_t *count, int64_t
     same(host, sim);
 }
 
+/* Until two of the steps have looked for candidates, which the device has alone for a while. */
 static void failing_devices(void **state)
 {
-    mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
-    shadow s;
-    (void)state;
-    shadow_attach(&s, sim);
-    go(host, 2);
-    go(sim, 2);
-    fail_each(host, sim, &s.launches, &s.fails_at);
-    fail_each(host, sim, &s.downloads, &s.loses_at);
-    mps_sim_destroy(host);
-    mps_sim_destroy(sim);
+    for (int which = 0; which < 2; which++) {
+        mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
+        const mps_neighbours *l = &sim->world.lists.neighbours;
+        int searched = 0;
+        shadow s;
+        (void)state;
+        shadow_attach(&s, sim);
+        go(host, 2);
+        go(sim, 2);
+        for (int k = 0; k < 30 && searched < 2; k++) {
+            const int64_t before = l->searches;
+            if (which == 0)
+                fail_each(host, sim, &s.launches, &s.fails_at);
+            else
+                fail_each(host, sim, &s.downloads, &s.loses_at);
+            searched += l->searches > before;
+        }
+        assert_true(searched >= 2);
+        mps_sim_destroy(host);
+        mps_sim_destroy(sim);
+    }
 }
 
 /* A weight function of the user has no text that a device knows. */
@@ -169,6 +181,56 @@ static void own_kernel_stays_on_the_host(void **state)
     ASSERT_OK(sim, mps_kernel_use(sim, &kernel));
     ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
     assert_int_equal(s.launches, 0);
+    mps_sim_destroy(sim);
+}
+
+/* Rows of more than a thousand candidates are found by the host, which has room for them. */
+static mps_sim *wide_rows(void)
+{
+    mps_sim *sim = new_sim(2, 0.02);
+    shadow_heap(sim);
+    add_tank(sim, 1.2, 0.8, 0);
+    fill_depth(sim, 1.2, 0.6, 0);
+    ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
+    shake(sim, 0.05);
+    sim->world.setup.re_far = 20 * sim->world.setup.dp;
+    return sim;
+}
+
+static void long_rows_stay_on_the_host(void **state)
+{
+    mps_sim *host = wide_rows(), *sim = wide_rows();
+    const mps_neighbours *l = &sim->world.lists.neighbours;
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    for (int k = 0; k < 20 && l->searches < 5; k++) {
+        go(host, 1);
+        go(sim, 1);
+        assert_true(l->longest > 1024);
+    }
+    assert_true(l->searches >= 5);
+    same(host, sim);
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+}
+
+/* What thin plates hide is taken out of rows of the device, which no list of the host takes the place of. */
+static void plates_hide_on_the_device(void **state)
+{
+    mps_sim *host = plate(), *sim = plate();
+    const mps_neighbours *l = &sim->world.lists.neighbours;
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    for (int k = 0; k < 40 && l->searches < 6; k++) {
+        go(host, 1);
+        go(sim, 1);
+        assert_true(sim->world.host.twins.listed == l->searches);
+        same(host, sim);
+    }
+    assert_true(l->searches >= 6 && sim->world.lists.screens.seers > 0);
+    mps_sim_destroy(host);
     mps_sim_destroy(sim);
 }
 
@@ -243,10 +305,11 @@ static void costs(void **state)
     }
 }
 
-/* Bytes up of a particle in steps with a search and without one: a search brings new lists, and its order; fields are put in order there. */
+/* Bytes up of a particle in steps with a search and without one: a search is done there, and so are order and permutation; only places of walls
+ * come from the host. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{60, 100}, {120, 200}}, {{60, 110}, {110, 190}}};
+    static const double range[2][2][2] = {{{100, 195}, {105, 200}}, {{110, 230}, {115, 235}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);
@@ -282,6 +345,8 @@ int main(void)
         cmocka_unit_test(checkpoints_change_sides),
         cmocka_unit_test(failing_devices),
         cmocka_unit_test(own_kernel_stays_on_the_host),
+        cmocka_unit_test(long_rows_stay_on_the_host),
+        cmocka_unit_test(plates_hide_on_the_device),
         cmocka_unit_test(costs),
         cmocka_unit_test(searches_copy_little),
     };

@@ -63,24 +63,24 @@ static void copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
         mps__device_upload(&t->device, twin->data, host, twin->bytes);
     else
         mps__device_download(&t->device, host, twin->data, twin->bytes);
-    twin->old[place] = false;
+    twin->old[place] = t->device.failed;
 }
 
-/* Lists of the host are not outdated: what they hold is an older parting of the same candidates, from which rows can be found again where the
- * device fails. */
+/* Lists of the host whose rows change are not outdated: what they hold is an older parting of the same candidates, from which rows can be found
+ * again where the device fails. */
 static bool is_list(const mps__twins *t, const mps__twin *twin)
 {
     return twin >= t->block && twin < t->block + MPS__LASTING;
 }
 
-/* The values at a place have changed. */
-static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place)
+/* The values at a place have changed; `all`: all of them. */
+static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place, bool all)
 {
     const int32_t other = place == MPS__ON_HOST ? MPS__ON_DEVICE : MPS__ON_HOST;
     const bool was_old = twin->old[other];
     twin->old[place] = false;
     twin->old[other] = true;
-    if (was_old || (other == MPS__ON_HOST && is_list(t, twin))) return;
+    if (was_old || (other == MPS__ON_HOST && !all && is_list(t, twin))) return;
     outdate(t, twin, other == MPS__ON_HOST ? host : twin->data);
 }
 
@@ -188,6 +188,7 @@ void mps__twins_begin(mps__twins *t)
 
 mps_status mps__twins_enter(mps__twins *t)
 {
+    MPS__TRY(open_constants(t));
     MPS__TRY(open_fields(t));
     t->open = true;
     mps__twins_go(t, MPS__ON_DEVICE);
@@ -202,13 +203,14 @@ mps_status mps__twins_leave(mps__twins *t)
 }
 
 /* One field, by way of another room, which is that of the field before from then on. Places of walls are others now: they are copied. */
-static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field *f)
+static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field *f,
+                                const int32_t *order)
 {
     const mps__twin before = *twin;
     if (f->data == (void **)&t->particles->wall_of) twin->old[MPS__ON_DEVICE] = true;
     if (twin->old[MPS__ON_DEVICE] || twin->bytes == 0) return MPS_OK;
     MPS__TRY(fit(t, &t->moved, twin->room, twin->number));
-    mps__particles_gather(t->parallel, t->moved.data, twin->data, t->particles->n, t->order.data,
+    mps__particles_gather(t->parallel, t->moved.data, twin->data, t->particles->n, order,
                           (size_t)f->components * f->size);
     twin->data = t->moved.data;
     twin->room = t->moved.room;
@@ -217,18 +219,22 @@ static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field
     return MPS_OK;
 }
 
-mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order)
+mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order,
+                              const int32_t *there)
 {
     mps__particles *s = t->particles;
     mps_status status = MPS_OK;
     if (!t->step || t->changes != changes || s->changes == changes || s->n == 0) return MPS_OK;
     t->changes = -1; /* in case of failure */
-    MPS__TRY(fit(t, &t->order, (size_t)s->n * sizeof *order, sizeof *order));
-    mps__device_upload(&t->device, t->order.data, order, t->order.bytes);
+    if (!there) {
+        MPS__TRY(fit(t, &t->order, (size_t)s->n * sizeof *order, sizeof *order));
+        mps__device_upload(&t->device, t->order.data, order, t->order.bytes);
+        there = t->order.data;
+    }
     t->changes = s->changes;
     MPS__TRY(mps__twins_enter(t));
     for (int32_t k = 0; k < s->fields && status == MPS_OK; k++)
-        status = permute_field(t, &t->list[FIELDS + k], &s->field[k]);
+        status = permute_field(t, &t->list[FIELDS + k], &s->field[k], there);
     if (status < 0) t->changes = -1;
     MPS__TRY(mps__twins_leave(t));
     return status;
@@ -265,13 +271,26 @@ mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t co
     return MPS_OK;
 }
 
+/* Whether candidates were found at the device, and have not come to the host. Rows that change there later are another parting of the same
+ * candidates, which the host does not need. */
+static bool searched_there(const mps__twins *t)
+{
+    const mps__twin *rim = &t->block[MPS__RIM_ROWS];
+    return rim->bytes > 0 && rim->old[MPS__ON_HOST];
+}
+
 mps_status mps__twins_close(mps__twins *t)
 {
     if (!t->step) return MPS_OK;
     mps__twins_go(t, MPS__ON_HOST);
     mps__twins_fields_ready(t);
+    if (searched_there(t)) mps__twins_rows_ready(t);
     for (int32_t k = MPS__LASTING; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
-    if (t->device.failed) t->changes = t->listed = -1;
+    t->lost = t->device.failed && searched_there(t);
+    if (t->device.failed) {
+        mps__twins_rows_drop(t);
+        t->changes = -1;
+    }
     t->last = t->device.info;
     t->open = t->step = false;
     const mps_status status = mps__device_status(&t->device);
@@ -325,7 +344,7 @@ void *mps__twins_given(mps__twins *t, void *array, bool all)
     mps__twin *twin = t->open && array ? find(t, array) : NULL;
     if (!twin) return array;
     if (!all) copy(t, twin, twin->host, t->place);
-    change(t, twin, twin->host, t->place);
+    change(t, twin, twin->host, t->place, all);
     return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
 }
 
@@ -396,12 +415,18 @@ void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v)
     v->setting = constants(t, model * MPS__SETTINGS, MPS__SETTINGS, v->setting);
 }
 
-void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes)
+void *mps__twins_room(mps__twins *t, int32_t block, size_t bytes)
 {
     mps__twin *twin = &t->scratch[block];
     if (fit(t, twin, bytes > 0 ? bytes : sizeof(double), sizeof(double)) < 0) return NULL;
-    mps__device_clear(&t->device, twin->data, twin->bytes);
     return twin->data;
+}
+
+void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes)
+{
+    void *room = mps__twins_room(t, block, bytes);
+    if (room) mps__device_clear(&t->device, room, t->scratch[block].bytes);
+    return room;
 }
 
 /* ---- values ---- */
@@ -434,10 +459,16 @@ void mps__twins_rows_ready(mps__twins *t)
     blocks_ready(t, MPS__LASTING);
 }
 
+void mps__twins_rows_drop(mps__twins *t)
+{
+    for (int k = 0; k < MPS__LASTING; k++) t->block[k].bytes = 0;
+    t->listed = -1;
+}
+
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
 {
     mps__twin *twin = t->open ? twin_of(t, channel) : NULL;
-    if (twin) change(t, twin, host_array(t, channel), place);
+    if (twin) change(t, twin, host_array(t, channel), place, true);
 }
 
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)

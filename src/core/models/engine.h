@@ -10,7 +10,7 @@
 
 enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES };
 
-/* Arrays of a step that are neither channels nor fields: lists of neighbours, wetted areas that have turned. */
+/* Arrays of a step that are neither channels nor fields: lists of neighbours, what thin plates hide, wetted areas that have turned. */
 enum {
     MPS__ROWS_BEGIN,
     MPS__ROWS_MIDDLE,
@@ -18,12 +18,15 @@ enum {
     MPS__ROWS_COUNT,
     MPS__ROWS_COLUMNS,
     MPS__IDLE_ROWS,
-    MPS__RIM_ROWS,
-    MPS__LASTING, /* those before it stay until the next search; the others live for a step */
+    MPS__SEER_SLOTS,
+    MPS__RIM_ROWS, /* the last that comes to the host */
+    MPS__LASTING,  /* those before it stay until the next search; the others live for a step */
     MPS__NEAR_BEGIN = MPS__LASTING,
     MPS__NEAR_COLUMNS,
     MPS__NEAR_WEIGHTS,
     MPS__TURNED_AREAS,
+    MPS__SCREEN_LIST,
+    MPS__SEER_LIST,
     MPS__BLOCKS
 };
 
@@ -43,6 +46,7 @@ typedef struct mps__twins {
     bool step;            /* a step has begun, */
     bool open;            /* and loops may run on the device */
     int64_t listed;       /* the search whose lists have twins; -1: none */
+    bool lost; /* the step that ended last: candidates that it found did not come to the host */
     int64_t changes; /* those of the particles when a step ended; fields have their twins since */
     int32_t place;   /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
@@ -68,9 +72,10 @@ void mps__twins_begin(mps__twins *t);
 mps_status mps__twins_enter(mps__twins *t);
 /* MPS_E_PLUGIN: a loop has failed. */
 mps_status mps__twins_leave(mps__twins *t);
-/* All particles of the host were put into an order, [n]; `changes`: those of the particles before. Fields that the device has follow them.
- * MPS_E_NOMEM, MPS_E_PLUGIN */
-mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order);
+/* All particles of the host were put into an order, [n]; `changes`: those of the particles before; `there`: NULL, or the order at the device.
+ * Fields that the device has follow them. MPS_E_NOMEM, MPS_E_PLUGIN */
+mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order,
+                              const int32_t *there);
 /* Its calls begin: room for all fields and for what its calls use. All values are on the host, those of fields that nothing has changed since the
  * step before on the device too. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
@@ -101,6 +106,8 @@ void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
 /* Block of scratch for a verb at the device, zeroed. NULL: no memory. */
 void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes);
+/* The same not zeroed, for what lives until the next verb. */
+void *mps__twins_room(mps__twins *t, int32_t block, size_t bytes);
 
 /* ---- values ---- */
 
@@ -112,6 +119,8 @@ void mps__twins_fields_ready(mps__twins *t);
 void mps__twins_lists_ready(mps__twins *t);
 /* The lists of the search alone, without the near rows that are made from them. */
 void mps__twins_rows_ready(mps__twins *t);
+/* Twins of those lists are those of no search any more. */
+void mps__twins_rows_drop(mps__twins *t);
 /* The values at a place have changed. */
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place);
 /* The array at a place. */

@@ -51,7 +51,7 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
         int64_t count;
         size_t size;
         void *fresh;
-    } a[] = {{(void **)&l->begin, wanted, sizeof *l->begin, NULL},
+    } a[] = {{(void **)&l->begin, mps__scan_room(wanted), sizeof *l->begin, NULL},
              {(void **)&l->count, wanted, sizeof *l->count, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
              {(void **)&l->near_begin, mps__scan_room(wanted + 1), sizeof *l->near_begin, NULL},
@@ -107,41 +107,6 @@ typedef struct search {
     atomic_int_least64_t *taken; /* entries of col that rows have, or would have were it longer */
     int64_t *longest; /* [MPS__PARTS] longest row of each part if too long for the stack, else 0 */
 } search;
-
-static int64_t first_at_least(const uint64_t *key, int64_t n, uint64_t value)
-{
-    int64_t lo = 0;
-    while (n > 0) {
-        int64_t half = n / 2;
-        if (key[lo + half] < value) {
-            lo += half + 1;
-            n -= half + 1;
-        } else {
-            n = half;
-        }
-    }
-    return lo;
-}
-
-/* Ranges of sorted places that hold the cells around `key`: one for each row of three cells. */
-MPS_ROW int ranges_around(const int dim, const search *s, uint64_t key, int64_t range[9][2])
-{
-    const int bits = mps__cell_bits(dim), high = dim == 3;
-    int count = 0;
-    for (int dz = -high; dz <= high; dz++)
-        for (int dy = -1; dy <= 1; dy++) {
-            int64_t step = (int64_t)dy * (INT64_C(1) << bits) +
-                           (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
-            uint64_t middle = key + (uint64_t)step;
-            int64_t first = first_at_least(s->key, s->n, middle - 1), last = first;
-            while (last < s->n && s->key[last] <= middle + 1) last++;
-            if (last > first) {
-                range[count][0] = first;
-                range[count++][1] = last;
-            }
-        }
-    return count;
-}
 
 /* Positions, and room for them in the order of the places, one axis after the other, so that loops over places run along memory. */
 typedef struct places {
@@ -303,7 +268,7 @@ MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, i
                             shelf *h, int64_t *longest)
 {
     int64_t range[9][2], a = first;
-    const int ranges = ranges_around(dim, s, s->key[first], range);
+    const int ranges = mps__ranges_around(dim, s->key, s->n, s->key[first], range);
     const bool fluid = !s->kind || any_within(s->fluid, range, ranges);
     const bool dummies = s->kind && any_within(s->dummy, range, ranges);
     finding f;
@@ -410,11 +375,9 @@ static mps_status search_rows(mps_neighbours *l, bool sorted)
     return l->longest > 0 ? mps__neighbours_part_long(l) : MPS_OK;
 }
 
-mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near,
-                                  double re_far)
+mps_status mps__neighbours_begin(mps_neighbours *l, int64_t n, const double *x, double re_near,
+                                 double re_far)
 {
-    const bool sorted = l->sorted;
-    if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, NULL, re_far));
     l->sorted = l->valid = false;
     l->searches++;
     MPS__TRY(reserve(l, n));
@@ -433,12 +396,26 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     l->x = x;
     l->re_near = re_near;
     l->re_far = re_far;
+    return MPS_OK;
+}
+
+void mps__neighbours_end(mps_neighbours *l)
+{
+    memcpy(l->searched, l->x, (size_t)(l->n * l->dim) * sizeof *l->x);
+    l->kind = NULL;
+    l->valid = true;
+}
+
+mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x, double re_near,
+                                  double re_far)
+{
+    const bool sorted = l->sorted;
+    if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, NULL, re_far));
+    MPS__TRY(mps__neighbours_begin(l, n, x, re_near, re_far));
     /* they borrow l->searched, which takes its own values after the search */
     mps__loop_run(l->parallel, &place_rows, l->dim, n, &(places){n, l->order, x, l->searched});
     if (l->kind) count_kinds(l);
     MPS__TRY(search_rows(l, sorted));
-    memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
-    l->kind = NULL;
-    l->valid = true;
+    mps__neighbours_end(l);
     return MPS_OK;
 }

@@ -89,12 +89,10 @@ MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
 #ifdef MPS_DEVICE
 /* A device has no room for buffers: each candidate goes up the row to its place. Most stay where they are. */
 
-/* 0: near, 1: within reach, 2: out of it. */
 MPS_ROW int ring_of(const int dim, const exact *l, int64_t i, int32_t j)
 {
-    const mps__rings *g = &l->rings;
-    const double r2 = mps__square_between(l->x + i * dim, l->x + (int64_t)j * dim, dim);
-    return r2 >= g->least && r2 < g->far2 ? r2 >= g->near2 : 2;
+    return mps__ring_of(&l->rings,
+                        mps__square_between(l->x + i * dim, l->x + (int64_t)j * dim, dim));
 }
 
 MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
@@ -197,13 +195,26 @@ MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 }
 MPS__LOOP(hide_rows, hide_row, hiding)
 
-void mps__neighbours_hide(mps_neighbours *l)
+void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there)
 {
     const mps__screens *s = l->screens;
     if (!s || s->count == 0) return;
-    mps__loop_run(
-        l->parallel, &hide_rows, l->dim, s->seers,
-        &(hiding){s->list, s->count, s->seer, s->slot, l->begin, l->middle, l->end, l->col});
+    mps__loop_run(l->parallel, &hide_rows, l->dim, s->seers,
+                  &(hiding){there->screen, s->count, there->seer, there->slot, there->begin,
+                            there->middle, there->end, there->col});
+}
+
+void mps__neighbours_hide(mps_neighbours *l)
+{
+    const mps__screens *s = l->screens;
+    if (!s) return;
+    mps__neighbours_hide_there(l, &(mps__row_arrays){.begin = l->begin,
+                                                     .middle = l->middle,
+                                                     .end = l->end,
+                                                     .col = l->col,
+                                                     .screen = s->list,
+                                                     .seer = s->seer,
+                                                     .slot = s->slot});
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
@@ -226,6 +237,7 @@ void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__r
     rows.end = there->end;
     rows.col = there->col;
     mps__loop_run(l->parallel, &exact_rows, l->dim, l->n, &rows);
+    mps__neighbours_hide_there(l, there);
 }
 
 /* Near pairs of a row, one place on: a sum over these up to a row is the begin of the row. */

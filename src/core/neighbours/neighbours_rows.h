@@ -45,6 +45,48 @@ MPS_ROW mps__parted mps__part_row(const mps__rings *g, const int32_t *from, cons
     return (mps__parted){nears, fars};
 }
 
+/* The part that a squared distance belongs to: 0 near pairs, 1 the others within reach, 2 what is out of it. */
+MPS_ROW int mps__ring_of(const mps__rings *g, double r2)
+{
+    return r2 >= g->least && r2 < g->far2 ? r2 >= g->near2 : 2;
+}
+
+static inline int64_t mps__first_at_least(const uint64_t *key, int64_t n, uint64_t value)
+{
+    int64_t lo = 0;
+    while (n > 0) {
+        int64_t half = n / 2;
+        if (key[lo + half] < value) {
+            lo += half + 1;
+            n -= half + 1;
+        } else {
+            n = half;
+        }
+    }
+    return lo;
+}
+
+/* Ranges of n sorted places that hold the cells around that of key `middle`: one for each row of three cells. */
+MPS_ROW int mps__ranges_around(const int dim, const uint64_t *key, int64_t n, uint64_t middle,
+                               int64_t range[9][2])
+{
+    const int bits = mps__cell_bits(dim), high = dim == 3;
+    int count = 0;
+    for (int dz = -high; dz <= high; dz++)
+        for (int dy = -1; dy <= 1; dy++) {
+            int64_t step = (int64_t)dy * (INT64_C(1) << bits) +
+                           (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
+            uint64_t cell = middle + (uint64_t)step;
+            int64_t first = mps__first_at_least(key, n, cell - 1), last = first;
+            while (last < n && key[last] <= cell + 1) last++;
+            if (last > first) {
+                range[count][0] = first;
+                range[count++][1] = last;
+            }
+        }
+    return count;
+}
+
 /* Part rows that the search found too long for the stack. */
 mps_status mps__neighbours_part_long(mps_neighbours *l);
 /* Room for `count` entries, not kept and not zeroed in what was there. Too much is given back: the first search has rows of all solids. */

@@ -14,12 +14,6 @@ enum { MPS__CROWD = 4096 };
 /* Cells are wider than the reach by this share, so that rounding of a cell number hides no pair. */
 static const double margin = 1e-6;
 
-/* Corners of cells are multiples of their size: which particles share a cell depends on nothing but their positions. */
-typedef struct cell_map {
-    double first[3], size; /* number of cell 0 along each axis, counted from the origin */
-    int bits;
-} cell_map;
-
 int mps__cell_bits(int32_t dim)
 {
     return dim == 2 ? MPS__BITS_2D : MPS__BITS_3D;
@@ -93,29 +87,53 @@ static int64_t far_particle(const mps_neighbours *l, int64_t n, const double *x,
     return far < 0 ? 0 : far;
 }
 
-/* Box of the particles and the packing of cell numbers into keys. */
-static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
-                            double reach, cell_map *m)
+/* Most that particles may lie apart along an axis, in cells. */
+static double cells_limit(const mps__cells *m)
 {
-    const double size = (1 + margin) * reach;
-    *m = (cell_map){.size = size, .bits = mps__cell_bits(l->dim)};
-    const double limit = (double)(INT64_C(1) << m->bits) - 4.0;
-    double corner[6] = {-INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY, -INFINITY};
+    return (double)(INT64_C(1) << m->bits) - 4.0;
+}
+
+static bool box_fits(const mps__cells *m, const double corner[6], int d)
+{
+    return (corner[d] + corner[3 + d]) / m->size < cells_limit(m);
+}
+
+/* Box of the particles and the packing of cell numbers into keys. Returns whether they fit. */
+static bool find_cells(mps_neighbours *l, int64_t n, const double *x, double reach,
+                       double corner[6])
+{
+    mps__cells *m = &l->cells;
+    bool fits = true;
+    *m = (mps__cells){.size = (1 + margin) * reach, .bits = mps__cell_bits(l->dim)};
+    for (int k = 0; k < 6; k++) corner[k] = -INFINITY;
     mps__values_run(l->parallel, &corner_rows, l->dim, n, &(corners){x}, NULL, corner);
     for (int d = 0; d < l->dim; d++) {
+        fits = fits && box_fits(m, corner, d);
+        /* cell 0 stays empty: no neighbour is beyond it */
+        m->first[d] = round_down(-corner[3 + d] / m->size) - 2;
+    }
+    return fits;
+}
+
+static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
+                            double reach)
+{
+    const mps__cells *m = &l->cells;
+    double corner[6];
+    if (find_cells(l, n, x, reach, corner)) return MPS_OK;
+    for (int d = 0; d < l->dim; d++) {
         const double lo = -corner[3 + d], hi = corner[d];
-        const bool fits = (hi - lo) / size < limit;
+        const bool fits = box_fits(m, corner, d);
         const int64_t far = fits ? 0 : far_particle(l, n, x, id, d, hi);
         MPS__CHECK(l->context, fits,
                    "particles lie %g m apart along axis %d (particle %lld at %g): at most %g m",
-                   hi - lo, d, name_of(id, far), x[far * l->dim + d], limit * size);
-        m->first[d] = round_down(lo / size) - 2; /* cell 0 stays empty: no neighbour is beyond it */
+                   hi - lo, d, name_of(id, far), x[far * l->dim + d], cells_limit(m) * m->size);
     }
     return MPS_OK;
 }
 
-/* Positions lie in the box of map_cells(). The number of a cell is bounded all the same, so that no position can be cast out of range. */
-MPS_ROW uint64_t cell_key(const int dim, const cell_map *m, const double *x)
+/* Positions lie in the box of find_cells(). The number of a cell is bounded all the same, so that no position can be cast out of range. */
+MPS_ROW uint64_t cell_key(const int dim, const mps__cells *m, const double *x)
 {
     const double last = (double)((INT64_C(1) << m->bits) - 2);
     uint64_t key = 0;
@@ -159,33 +177,115 @@ static void order_ties(const mps_neighbours *l, int64_t n, const int64_t *id)
 }
 
 typedef struct keying {
-    cell_map map;
+    mps__cells cells;
     const double *x;
     uint64_t *key;
-    int32_t *order;
+    int32_t *order; /* NULL: not wanted */
 } keying;
 
 MPS_ROW void key_row(const int dim, const keying *k, int64_t i)
 {
-    k->key[i] = cell_key(dim, &k->map, k->x + i * dim);
-    k->order[i] = (int32_t)i;
+    k->key[i] = cell_key(dim, &k->cells, k->x + i * dim);
+    if (k->order) k->order[i] = (int32_t)i;
 }
 MPS__LOOP(key_rows, key_row, keying)
+
+void mps__neighbours_keys(const mps_neighbours *l, const double *x, uint64_t *key)
+{
+    mps__loop_run(l->parallel, &key_rows, l->dim, l->n, &(keying){l->cells, x, key, NULL});
+}
 
 mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
                                  double re_far)
 {
-    cell_map m;
     l->valid = l->sorted = false;
     l->key = mps__scratch_take(l->context, l->shared, 0, 2 * n, sizeof *l->key);
     l->order = mps__scratch_take(l->context, l->shared, 1, 2 * n, sizeof *l->order);
     if (!l->key || !l->order) return MPS_E_NOMEM;
-    MPS__TRY(map_cells(l, n, x, id, re_far + l->skin, &m));
-    mps__loop_run(l->parallel, &key_rows, l->dim, n, &(keying){m, x, l->key, l->order});
+    MPS__TRY(map_cells(l, n, x, id, re_far + l->skin));
+    mps__loop_run(l->parallel, &key_rows, l->dim, n, &(keying){l->cells, x, l->key, l->order});
     mps__sort_keys(l->key, l->order, n);
-    MPS__TRY(check_crowds(l, n, x, id, m.size));
+    MPS__TRY(check_crowds(l, n, x, id, l->cells.size));
     if (id) order_ties(l, n, id);
     return MPS_OK;
+}
+
+/* ---- on a device ---- */
+
+/* Runs that are in order become runs of several: a place knows its new one from its own in its run, and from how many of each other run come
+ * before it. Keys and ids together are all different: there is one order only. */
+enum { MPS__WAYS = 4 };
+
+typedef struct merging {
+    int64_t n, run;
+    const int64_t *id;
+    const uint64_t *key;
+    const int32_t *order;
+    uint64_t *new_key;
+    int32_t *new_order;
+} merging;
+
+/* Places of a run that come before place a. */
+MPS_ROW int64_t count_before(const merging *m, int64_t a, int64_t run)
+{
+    const int64_t begin = run * m->run < m->n ? run * m->run : m->n;
+    const int64_t end = begin + m->run < m->n ? begin + m->run : m->n;
+    const uint64_t key = m->key[a];
+    const int64_t id = m->id[m->order[a]];
+    int64_t lo = begin, hi = end;
+    while (lo < hi) {
+        const int64_t b = lo + (hi - lo) / 2;
+        const uint64_t other = m->key[b];
+        if (other < key || (other == key && m->id[m->order[b]] < id))
+            lo = b + 1;
+        else
+            hi = b;
+    }
+    return lo - begin;
+}
+
+MPS_ROW void merge_row(const int dim, const merging *m, int64_t a)
+{
+    const int64_t own = a / m->run, first = own - own % MPS__WAYS;
+    int64_t to = first * m->run + a % m->run;
+    (void)dim;
+    for (int64_t run = first; run < first + MPS__WAYS; run++)
+        if (run != own) to += count_before(m, a, run);
+    m->new_key[to] = m->key[a];
+    m->new_order[to] = m->order[a];
+}
+MPS__LOOP(merge_rows, merge_row, merging)
+
+MPS_ROW bool begins_crowd(const merging *m, int64_t a)
+{
+    return a + MPS__CROWD < m->n && m->key[a + MPS__CROWD] == m->key[a];
+}
+MPS__FIRST(crowds, begins_crowd, merging)
+
+const int32_t *mps__neighbours_order_there(mps_neighbours *l, int64_t n, double re_far,
+                                           const mps__order_arrays *there)
+{
+    double corner[6];
+    merging m = {.n = n,
+                 .run = 1,
+                 .id = there->id,
+                 .key = there->key,
+                 .order = there->order,
+                 .new_key = there->key + n,
+                 .new_order = there->order + n};
+    l->valid = l->sorted = false;
+    if (!find_cells(l, n, there->x, re_far + l->skin, corner)) return NULL;
+    mps__loop_run(l->parallel, &key_rows, l->dim, n,
+                  &(keying){l->cells, there->x, there->key, there->order});
+    for (; m.run < n; m.run *= MPS__WAYS) {
+        mps__loop_run(l->parallel, &merge_rows, MPS__ANY_DIM, n, &m);
+        const merging from = m;
+        m.key = from.new_key;
+        m.order = from.new_order;
+        m.new_key = (uint64_t *)from.key;
+        m.new_order = (int32_t *)from.order;
+    }
+    return mps__first_run(l->parallel, &crowds, n, &m) == n ? m.order : NULL;
 }
 
 void mps__neighbours_sorted(mps_neighbours *l, int64_t n)

@@ -159,6 +159,14 @@ static mps_status name_coupling(const mps__step *q, mps_status status)
                      w->context->error, jump);
 }
 
+/* Nothing is at the device any more that the host needs. What a search found there may be lost: the next step finds it again. */
+static mps_status leave_device(mps__world *w)
+{
+    const mps_status status = mps__twins_close(&w->host.twins);
+    if (status < 0 && w->host.twins.lost) w->lists.neighbours.valid = false;
+    return status;
+}
+
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w};
@@ -173,7 +181,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__twins_begin(&w->host.twins);
     mps_status status = prepare(w);
     if (status < 0) {
-        mps__twins_close(&w->host.twins);
+        leave_device(w);
         mps__world_depopulate(w);
         return status;
     }
@@ -184,7 +192,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__host_book(&w->host, MPS__UNDO);
     const bool kept = status >= 0;
     if (kept) status = try_step(&q, dt_max, &planned);
-    const mps_status closed = mps__twins_close(&w->host.twins);
+    const mps_status closed = leave_device(w);
     if (closed < 0) status = closed; /* whatever came of it */
     if (kept && status < 0) mps__undo_restore(w, q.before);
     if (status < 0) {

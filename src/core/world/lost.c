@@ -156,57 +156,56 @@ MPS_ROW bool spilled(const int dim, const mps_view *v, const rims *f, int64_t i)
     return false;
 }
 
-/* The maximum: whether any row is. */
-MPS_ROW void raise_spilled(const int dim, const mps_view *v, const rims *f, int64_t i, double *any)
-{
-    if (any[0] < 1 && f->rim[i] && spilled(dim, v, f, i)) any[0] = 1;
-}
-MPS_SUMS(any_spilled, raise_spilled, rims)
-
 MPS_ROW void look_behind(const int dim, const mps_view *v, const rims *f, int64_t i)
 {
     f->gone[i] = f->rim[i] && spilled(dim, v, f, i);
 }
 MPS_ROWS(spilled_rows, look_behind, rims)
 
-/* Whether any is behind a wall, by the lists of the device. Nearly always none is. */
-static mps_status look_there(mps__world *w, const mps_view *v, const rims *f, bool *any)
+/* The maximum: whether any row is. */
+MPS_ROW void note_spilled(const int dim, const mps_view *v, const rims *f, int64_t i, double *any)
 {
-    mps__twins *t = &w->host.twins;
-    double found = 0;
-    MPS__TRY(mps__twins_enter(t));
-    const rims there = {.begin = mps__seen(w, f->begin),
-                        .middle = mps__seen(w, f->middle),
-                        .col = mps__seen(w, f->col),
-                        .plate = mps__seen(w, f->plate),
-                        .rim = mps__seen(w, f->rim),
-                        .ref = mps__seen(w, f->ref),
-                        .area = mps__seen(w, f->area)};
-    mps__host_max(&w->host, v, 1, &any_spilled, &there, &found);
-    *any = found > 0;
-    MPS__TRY(mps__twins_leave(t));
-    if (*any) mps__twins_rows_ready(t);
-    return mps__device_status(&t->device);
+    if (*any < 1 && f->rim[i] && spilled(dim, v, f, i)) *any = 1;
+}
+MPS_SUMS(any_spilled, note_spilled, rims)
+
+/* Arrays where loops run. */
+static rims rims_of(const mps__world *w)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    const mps__particles *s = &w->particles;
+    return (rims){.begin = mps__seen(w, l->begin),
+                  .middle = mps__seen(w, l->middle),
+                  .col = mps__seen(w, l->col),
+                  .plate = mps__seen(w, s->plate),
+                  .rim = mps__seen(w, l->rim),
+                  .ref = mps__seen(w, s->ref),
+                  .area = mps__seen(w, s->area),
+                  .gone = w->work.gone};
+}
+
+/* Whether any liquid is behind a wall, where the device of a step has rows: most steps need them nowhere else. */
+static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
+{
+    double most = 0;
+    MPS__TRY(mps__twins_enter(&w->host.twins));
+    const rims f = rims_of(w);
+    mps__host_max(&w->host, v, 1, &any_spilled, &f, &most);
+    *any = most > 0;
+    return mps__twins_leave(&w->host.twins);
 }
 
 /* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
 mps_status mps__world_leave_tank(mps__world *w)
 {
-    const mps_neighbours *l = &w->lists.neighbours;
-    const mps__particles *s = &w->particles;
-    const rims f = {.begin = l->begin,
-                    .middle = l->middle,
-                    .col = l->col,
-                    .plate = s->plate,
-                    .rim = l->rim,
-                    .ref = s->ref,
-                    .area = s->area,
-                    .gone = w->work.gone};
-    mps_view v;
     bool any = true;
+    mps_view v;
     mps__world_view(w, &v);
-    if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &f, &any));
+    if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
     if (!any) return MPS_OK;
+    mps__twins_rows_ready(&w->host.twins);
+    MPS__TRY(mps__device_status(&w->host.twins.device));
+    const rims f = rims_of(w);
     clear_gone(w);
     mps__host_rows(&w->host, &v, &spilled_rows, &f);
     return handle_lost(w, w->work.gone, "are behind a wall");

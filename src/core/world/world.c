@@ -217,16 +217,37 @@ static mps_status link_solids(mps__world *w)
     return MPS_OK;
 }
 
+/* Which particles the next search gives rows. */
+static void choose_rows(mps__world *w, bool all)
+{
+    w->lists.neighbours.kind = all ? NULL : w->particles.kind;
+    w->lists.neighbours.dummy_rows = mps__models_dummy_rows(&w->models);
+    w->lists.neighbours.ghost_rows = mps__models_neighbour_rows(&w->models);
+}
+
 /* Lists of the particles in the order they have, which is that of the cells if they are `sorted`. */
 static mps_status search_lists(mps__world *w, bool sorted, bool all)
 {
     mps__particles *s = &w->particles;
+    if (sorted && !w->lists.neighbours.key)
+        MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
-    w->lists.neighbours.kind = all ? NULL : s->kind;
-    w->lists.neighbours.dummy_rows = mps__models_dummy_rows(&w->models);
-    w->lists.neighbours.ghost_rows = mps__models_neighbour_rows(&w->models);
+    choose_rows(w, all);
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
                                   w->setup.re_far);
+}
+
+/* The same without idle solids, on the host or at the device of a step; and what plates hide. */
+static mps_status search_active(mps__world *w, bool sorted)
+{
+    bool there = false;
+    choose_rows(w, false);
+    if (sorted) MPS__TRY(mps__world_search_there(w, &there));
+    if (!there) MPS__TRY(search_lists(w, sorted, false));
+    MPS__TRY(mps__plates_find(w));
+    if (there) return mps__world_hide_there(w);
+    mps__neighbours_hide(&w->lists.neighbours);
+    return MPS_OK;
 }
 
 /* New lists, with exact rows. */
@@ -237,9 +258,7 @@ static mps_status search(mps__world *w, bool sorted)
         MPS__TRY(search_lists(w, sorted, true));
         status = link_solids(w);
     }
-    if (status == MPS_OK) status = search_lists(w, sorted, false);
-    if (status == MPS_OK) status = mps__plates_find(w);
-    if (status == MPS_OK) mps__neighbours_hide(&w->lists.neighbours);
+    if (status == MPS_OK) status = search_active(w, sorted);
     if (status < 0) w->lists.neighbours.valid = false;
     if (status == MPS_OK) w->lists.listed = w->particles.generation;
     return status;

@@ -223,7 +223,13 @@ void mps__world_take_back(mps__world *w);
 mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from lists that are fresh; at the device of a step, if it has them. world_rows.c */
 mps_status mps__world_rows(mps__world *w);
-/* Whether the device of the step in progress has the lists of the last search. */
+/* The order of the cells: in the list, and where a device made it, in `there`; NULL: the host did. world_rows.c */
+mps_status mps__world_order(mps__world *w, const int32_t **there);
+/* Candidates of particles that are in the order of their cells, found at the device of a step; `found` is false if they are to be found on the
+ * host. Plates hide nothing yet. world_rows.c */
+mps_status mps__world_search_there(mps__world *w, bool *found);
+mps_status mps__world_hide_there(mps__world *w);
+/* Whether the device of a step has those lists. */
 bool mps__world_rows_there(const mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);

@@ -179,13 +179,14 @@ mps_status mps__world_divide(mps__world *w)
     mps__particles *s = &w->particles;
     mps_neighbours *l = &w->lists.neighbours;
     const mps__placing p = placing(w);
+    const int32_t *there;
     MPS__TRY(mps__ghosts_renew(&w->ghosts, &p, w->lists.aside));
     mps__host_all_alike(&w->host);
-    MPS__TRY(mps__neighbours_order(l, s->n, s->x, s->id, w->setup.re_far));
+    MPS__TRY(mps__world_order(w, &there));
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
     const int64_t changes = s->changes;
     MPS__TRY(mps__particles_permute(s, s->n, l->order));
-    MPS__TRY(mps__twins_permute(&w->host.twins, changes, l->order));
+    MPS__TRY(mps__twins_permute(&w->host.twins, changes, l->order, there));
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;

@@ -1,37 +1,200 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of neighbours between two searches, on the host or on a device that has the lists. */
+/* Order of particles and candidates of neighbours from a device; rows between two searches, on the host or on a device that has the lists. */
 #include "plates.h"
 #include "scan.h"
+
+/* Whether the device of a step finds rows. */
+static bool device_finds(const mps__world *w)
+{
+    return w->host.twins.step && w->setup.kernel.id != MPS_KERNEL_CUSTOM;
+}
 
 /* The host's lists are an older parting of the same candidates as long as the device has newer ones: still right to begin from. */
 bool mps__world_rows_there(const mps__world *w)
 {
-    const mps__twins *t = &w->host.twins;
     const mps_neighbours *l = &w->lists.neighbours;
-    return t->step && t->listed == l->searches && l->longest == 0 && w->lists.screens.count == 0 &&
-           w->setup.kernel.id != MPS_KERNEL_CUSTOM;
+    return device_finds(w) && w->host.twins.listed == l->searches && l->longest == 0;
+}
+
+/* Room for lists of the device, which has values for them or gets them from the host. Columns have theirs when they are counted. */
+static mps_status make_lists(mps__world *w, bool values)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    mps__twins *t = &w->host.twins;
+    const int64_t n = l->n;
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_BEGIN, l->begin, mps__scan_room(n), sizeof *l->begin,
+                              values));
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, values));
+    if (l->end != l->middle)
+        MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, values));
+    MPS__TRY(mps__twins_block(t, MPS__ROWS_COUNT, l->count, n, sizeof *l->count, values));
+    MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, values));
+    return mps__twins_block(t, MPS__RIM_ROWS, l->rim, n, sizeof *l->rim, values);
+}
+
+static mps_status make_columns(mps__world *w, bool values)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    return mps__twins_block(&w->host.twins, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col,
+                            values);
+}
+
+/* ---- order ---- */
+
+/* While loops run on the device. NULL: it could not. */
+static mps_status order_there(mps__world *w, const int32_t **there)
+{
+    const mps__particles *s = &w->particles;
+    mps_neighbours *l = &w->lists.neighbours;
+    mps__twins *t = &w->host.twins;
+    const size_t n = (size_t)s->n;
+    const mps__order_arrays a = {.x = mps__seen(w, s->x),
+                                 .id = mps__seen(w, s->id),
+                                 .key = mps__twins_room(t, 0, 2 * n * sizeof *a.key),
+                                 .order = mps__twins_room(t, 1, 2 * n * sizeof *a.order)};
+    if (!a.key || !a.order) return MPS_E_NOMEM;
+    l->key = NULL;
+    l->order = mps__scratch_take(w->context, l->shared, 1, 2 * s->n, sizeof *l->order);
+    if (!l->order) return MPS_E_NOMEM;
+    *there = mps__neighbours_order_there(l, s->n, w->setup.re_far, &a);
+    if (*there) mps__device_download(&t->device, l->order, *there, n * sizeof *l->order);
+    if (t->device.failed) *there = NULL;
+    return MPS_OK;
+}
+
+mps_status mps__world_order(mps__world *w, const int32_t **there)
+{
+    const mps__particles *s = &w->particles;
+    *there = NULL;
+    if (device_finds(w) && w->lists.linked == s->solids) {
+        MPS__TRY(mps__twins_enter(&w->host.twins));
+        const mps_status status = order_there(w, there);
+        mps__twins_leave(&w->host.twins); /* what has failed is seen after the host's order */
+        MPS__TRY(status);
+    }
+    return *there ? MPS_OK
+                  : mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far);
+}
+
+/* ---- candidates ---- */
+
+/* While loops run on the device. */
+static mps_status search_there(mps__world *w, bool *found)
+{
+    mps__twins *t = &w->host.twins;
+    mps_neighbours *l = &w->lists.neighbours;
+    MPS__TRY(make_lists(w, false));
+    mps__search_arrays there = {
+        .x = mps__seen(w, w->particles.x),
+        .kind = mps__seen(w, w->particles.kind),
+        .key = mps__twins_room(t, 0, (size_t)l->n * sizeof *there.key),
+        .begin = mps__given(w, l->begin),
+        .middle = mps__given(w, l->middle),
+        .end = mps__given(w, l->end),
+        .count = mps__given(w, l->count),
+        .idle = mps__given(w, l->idle),
+        .rim = mps__given(w, l->rim),
+    };
+    if (!there.key) return MPS_E_NOMEM;
+    MPS__TRY(mps__neighbours_count_there(l, &there));
+    MPS__TRY(mps__device_status(&t->device));
+    if (l->longest > 0) return MPS_OK;
+    MPS__TRY(make_columns(w, false));
+    there.col = mps__given(w, l->col);
+    mps__neighbours_fill_there(l, &there);
+    *found = true;
+    return MPS_OK;
+}
+
+mps_status mps__world_search_there(mps__world *w, bool *found)
+{
+    mps__twins *t = &w->host.twins;
+    mps_neighbours *l = &w->lists.neighbours;
+    *found = false;
+    if (!device_finds(w)) return MPS_OK;
+    MPS__TRY(mps__neighbours_begin(l, w->particles.n, w->particles.x, w->setup.re_near,
+                                   w->setup.re_far));
+    mps__twins_rows_drop(t);
+    MPS__TRY(mps__twins_enter(t));
+    mps_status status = search_there(w, found);
+    const mps_status left = mps__twins_leave(t);
+    if (status == MPS_OK) status = left;
+    if (status < 0 || !*found) {
+        mps__twins_rows_drop(t);
+        return status;
+    }
+    t->listed = l->searches;
+    mps__neighbours_end(l);
+    return MPS_OK;
+}
+
+/* ---- rows ---- */
+
+/* Numbers of 8 bytes. */
+static mps_status make_structs(mps__world *w, int32_t block, void *host, int64_t count, size_t size)
+{
+    return mps__twins_block(&w->host.twins, block, host, count * (int64_t)(size / 8), 8, true);
+}
+
+/* Screens, and particles near them where they are now. */
+static mps_status make_screens(mps__world *w)
+{
+    const mps__screens *p = &w->lists.screens;
+    MPS__TRY(make_structs(w, MPS__SCREEN_LIST, p->list, p->count, sizeof *p->list));
+    return make_structs(w, MPS__SEER_LIST, p->seer, p->seers, sizeof *p->seer);
+}
+
+static mps_status make_slots(mps__world *w)
+{
+    const mps__screens *p = &w->lists.screens;
+    return mps__twins_block(&w->host.twins, MPS__SEER_SLOTS, p->slot, w->particles.n,
+                            sizeof *p->slot, true);
+}
+
+/* Arrays for rows that change. */
+static mps__row_arrays arrays_there(mps__world *w)
+{
+    mps__twins *t = &w->host.twins;
+    const mps_neighbours *l = &w->lists.neighbours;
+    const mps__screens *p = &w->lists.screens;
+    return (mps__row_arrays){.x = mps__seen(w, w->particles.x),
+                             .begin = mps__seen(w, l->begin),
+                             .count = mps__seen(w, l->count),
+                             .middle = mps__twins_given(t, l->middle, false),
+                             .end = mps__twins_given(t, l->end, false),
+                             .col = mps__twins_given(t, l->col, false),
+                             .screen = mps__seen(w, p->list),
+                             .seer = mps__seen(w, p->seer),
+                             .slot = mps__seen(w, p->slot)};
+}
+
+mps_status mps__world_hide_there(mps__world *w)
+{
+    mps__twins *t = &w->host.twins;
+    if (w->lists.screens.count == 0) return MPS_OK;
+    MPS__TRY(mps__twins_enter(t));
+    MPS__TRY(make_screens(w));
+    MPS__TRY(make_slots(w));
+    const mps__row_arrays there = arrays_there(w);
+    mps__neighbours_hide_there(&w->lists.neighbours, &there);
+    return mps__twins_leave(t);
 }
 
 static mps_status rows_there(mps__world *w)
 {
     mps__twins *t = &w->host.twins;
-    mps_neighbours *l = &w->lists.neighbours;
     MPS__TRY(mps__twins_enter(t));
-    const mps__row_arrays there = {.x = mps__seen(w, w->particles.x),
-                                   .begin = mps__seen(w, l->begin),
-                                   .count = mps__seen(w, l->count),
-                                   .middle = mps__twins_given(t, l->middle, false),
-                                   .end = mps__twins_given(t, l->end, false),
-                                   .col = mps__twins_given(t, l->col, false)};
-    mps__neighbours_rows_there(l, w->particles.x, &there);
+    MPS__TRY(make_screens(w));
+    const mps__row_arrays there = arrays_there(w);
+    mps__neighbours_rows_there(&w->lists.neighbours, w->particles.x, &there);
     return mps__twins_leave(t);
 }
 
 mps_status mps__world_rows(mps__world *w)
 {
+    mps__plates_look(w);
     if (mps__world_rows_there(w)) return rows_there(w);
     w->host.twins.listed = -1;
-    mps__plates_look(w);
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
     return MPS_OK;
 }
@@ -41,17 +204,11 @@ static mps_status show_lists(mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
-    const int64_t n = l->n;
     if (t->listed == l->searches) return MPS_OK;
-    for (int k = 0; k < MPS__LASTING; k++) t->block[k].bytes = 0;
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_BEGIN, l->begin, n, sizeof *l->begin, true));
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_MIDDLE, l->middle, n, sizeof *l->middle, true));
-    if (l->end != l->middle)
-        MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, true));
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_COUNT, l->count, n, sizeof *l->count, true));
-    MPS__TRY(mps__twins_block(t, MPS__ROWS_COLUMNS, l->col, l->pairs, sizeof *l->col, true));
-    MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, true));
-    MPS__TRY(mps__twins_block(t, MPS__RIM_ROWS, l->rim, n, sizeof *l->rim, true));
+    mps__twins_rows_drop(t);
+    MPS__TRY(make_lists(w, true));
+    MPS__TRY(make_columns(w, true));
+    if (w->lists.screens.count > 0) MPS__TRY(make_slots(w));
     t->listed = l->searches;
     return MPS_OK;
 }

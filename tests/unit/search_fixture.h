@@ -1,0 +1,176 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Order of particles and candidates by the loops of a device, which run wherever the includer has them run, beside the host's. */
+#ifndef TESTS_SEARCH_FIXTURE_H
+#define TESTS_SEARCH_FIXTURE_H
+
+#include "cloud.h"
+#include "neighbours.h"
+#include "scan.h"
+#include <setjmp.h>
+#include <stdarg.h>
+#include <cmocka.h>
+
+static const double search_near = 2.1 * CLOUD_DP, search_far = 3.1 * CLOUD_DP;
+
+/* Fluid over a wall over dummies, in any order; ids are in another. */
+typedef struct tank {
+    cloud c;
+    int32_t *kind;
+    int64_t *id;
+} tank;
+
+static inline int64_t below(int64_t n, uint64_t *seed)
+{
+    const int64_t k = (int64_t)((cloud_random(seed) + 1) / 2 * (double)n);
+    return k < n ? k : n - 1;
+}
+
+static inline tank tank_of(int32_t dim, int64_t n, uint64_t seed)
+{
+    const size_t room = n > 0 ? (size_t)n : 1;
+    tank t = {cloud_empty(dim, n), calloc(room, sizeof(int32_t)), calloc(room, sizeof(int64_t))};
+    int64_t side = 1;
+    while ((dim == 2 ? side * side : side * side * side) < n) side++;
+    int64_t *place = calloc(room, sizeof *place);
+    assert_true(t.c.x && t.kind && t.id && place);
+    for (int64_t i = 0; i < n; i++) place[i] = t.id[i] = i;
+    for (int64_t i = n - 1; i > 0; i--) {
+        const int64_t a = below(i + 1, &seed), b = below(i + 1, &seed), p = place[i], q = t.id[i];
+        place[i] = place[a];
+        place[a] = p;
+        t.id[i] = t.id[b];
+        t.id[b] = q;
+    }
+    for (int64_t i = 0; i < n; i++) {
+        const int64_t k[3] = {place[i] % side, place[i] / side % side, place[i] / side / side};
+        for (int d = 0; d < dim; d++)
+            t.c.x[i * dim + d] = CLOUD_DP * ((double)k[d] + 0.3 * cloud_random(&seed));
+        const int64_t height = k[dim - 1];
+        t.kind[i] = height < side / 3 ? MPS_DUMMY : height == side / 3 ? MPS_WALL : MPS_FLUID;
+    }
+    free(place);
+    return t;
+}
+
+static inline void tank_free(tank *t)
+{
+    cloud_free(&t->c);
+    free(t->kind);
+    free(t->id);
+}
+
+/* All particles to the places of an order. */
+static inline void tank_sort(tank *t, const int32_t *order)
+{
+    const int32_t dim = t->c.dim;
+    cloud c = cloud_empty(dim, t->c.n);
+    int32_t *kind = calloc((size_t)c.n, sizeof *kind);
+    assert_true(c.x && kind);
+    for (int64_t i = 0; i < c.n; i++) {
+        memcpy(c.x + i * dim, t->c.x + (int64_t)order[i] * dim, (size_t)dim * sizeof *c.x);
+        kind[i] = t->kind[order[i]];
+    }
+    cloud_free(&t->c);
+    free(t->kind);
+    t->c = c;
+    t->kind = kind;
+}
+
+/* Room for arrays that loops of a device work on. */
+typedef struct search_room {
+    mps__order_arrays order;
+    mps__search_arrays search;
+} search_room;
+
+static inline void *room_for(int64_t count, size_t size)
+{
+    void *room = malloc((size_t)(count > 0 ? count : 1) * size);
+    assert_non_null(room);
+    return room;
+}
+
+static inline search_room search_room_of(int64_t n)
+{
+    search_room r = {.order = {.key = room_for(2 * n, sizeof(uint64_t)),
+                               .order = room_for(2 * n, sizeof(int32_t))},
+                     .search = {.begin = room_for(mps__scan_room(n), sizeof(int64_t)),
+                                .middle = room_for(n, sizeof(int64_t)),
+                                .end = room_for(n, sizeof(int64_t)),
+                                .count = room_for(n, sizeof(int32_t)),
+                                .idle = room_for(n, 1),
+                                .rim = room_for(n, 1)}};
+    r.search.key = r.order.key;
+    return r;
+}
+
+static inline void search_room_free(search_room *r)
+{
+    free(r->order.key);
+    free(r->order.order);
+    free(r->search.begin);
+    free(r->search.middle);
+    free(r->search.end);
+    free(r->search.count);
+    free(r->search.idle);
+    free(r->search.rim);
+}
+
+/* The host's lists and those of the loops: each row alike, one behind the other in the second. */
+static inline void same_rows(const mps_neighbours *l, const mps__search_arrays *there)
+{
+    int64_t begin = 0;
+    for (int64_t i = 0; i < l->n; i++) {
+        assert_int_equal(there->idle[i], l->idle[i]);
+        assert_int_equal(there->rim[i], l->rim[i]);
+        assert_int_equal(there->count[i], l->count[i]);
+        assert_int_equal(there->begin[i], begin);
+        assert_int_equal(there->middle[i] - begin, l->middle[i] - l->begin[i]);
+        assert_int_equal(there->end[i] - begin, l->end[i] - l->begin[i]);
+        if (l->count[i] > 0)
+            assert_memory_equal(there->col + begin, l->col + l->begin[i],
+                                (size_t)l->count[i] * sizeof *l->col);
+        begin += l->count[i];
+    }
+}
+
+/* Order, then candidates of `n` particles on both sides. `equal`: one radius. */
+static inline void search_both(int32_t dim, int64_t n, bool dummy_rows, bool equal)
+{
+    mps__context context = {.allocator = mps__allocator_default()};
+    mps_neighbours host, l;
+    tank t = tank_of(dim, n, (uint64_t)(n + dim));
+    search_room r = search_room_of(n);
+    const double near = equal ? search_far : search_near;
+    assert_int_equal(mps__neighbours_init(&host, &context, dim, CLOUD_DP), MPS_OK);
+    assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
+    assert_int_equal(mps__neighbours_order(&host, n, t.c.x, t.id, search_far), MPS_OK);
+    r.order.x = t.c.x;
+    r.order.id = t.id;
+    const int32_t *order = mps__neighbours_order_there(&l, n, search_far, &r.order);
+    assert_non_null(order);
+    assert_memory_equal(order, host.order, (size_t)n * sizeof *order);
+    if (n > 0) {
+        tank_sort(&t, order);
+        mps__neighbours_sorted(&host, n);
+        host.kind = l.kind = t.kind;
+        host.dummy_rows = l.dummy_rows = dummy_rows;
+        assert_int_equal(mps__neighbours_search(&host, n, t.c.x, near, search_far), MPS_OK);
+        assert_int_equal(mps__neighbours_begin(&l, n, t.c.x, near, search_far), MPS_OK);
+        r.search.x = t.c.x;
+        r.search.kind = t.kind;
+        mps__search_arrays there = r.search;
+        if (equal) there.end = there.middle;
+        assert_int_equal(mps__neighbours_count_there(&l, &there), MPS_OK);
+        assert_int_equal(l.pairs, host.pairs);
+        assert_int_equal(l.longest, 0);
+        there.col = l.col;
+        mps__neighbours_fill_there(&l, &there);
+        same_rows(&host, &there);
+    }
+    mps__neighbours_free(&host);
+    mps__neighbours_free(&l);
+    search_room_free(&r);
+    tank_free(&t);
+}
+
+#endif
