@@ -40,6 +40,7 @@ static bool frame_room(film_frame *s, int64_t count)
     s->part = next += s->capacity;
     s->id = next += s->capacity;
     s->pocket = next + s->capacity;
+    memset(s->pocket, 0, (size_t)count * sizeof *s->pocket); /* most frames have none */
     return true;
 }
 
@@ -59,7 +60,6 @@ static mps_status frame_fill(const film *f, const vtp_frame *v, film_frame *s)
                                   v->piece[0].path, array[k].name, (int)array[k].width);
         status = mps__vtp_read(v, array[k].name, array[k].out);
     }
-    memset(s->pocket, 0, (size_t)s->count * sizeof *s->pocket);
     if (status == MPS_OK && mps__vtp_width(v, "pocket") == 1) /* of gas.pocket alone */
         status = mps__vtp_read(v, "pocket", s->pocket);
     return status;
