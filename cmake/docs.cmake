@@ -2,6 +2,8 @@
 # Target `docs`: reference of the public headers; a warning of Doxygen is an error.
 find_program(MPS_DOXYGEN doxygen)
 if(MPS_DOXYGEN)
+  file(GLOB MPS_PLUGIN_HEADERS CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/plugins/*/include/mps)
+  list(JOIN MPS_PLUGIN_HEADERS " " MPS_PLUGIN_HEADERS)
   configure_file(docs/Doxyfile.in Doxyfile @ONLY)
   add_custom_target(docs COMMAND ${MPS_DOXYGEN} ${PROJECT_BINARY_DIR}/Doxyfile VERBATIM COMMENT "Reference in ${PROJECT_BINARY_DIR}/docs/html")
 endif()

@@ -39,8 +39,10 @@ typedef struct mps_cuda_info {
     int32_t count;
     /** out: its name. */
     char name[128];
-    /** out: its memory, all and free [bytes]. */
-    uint64_t memory, free_memory;
+    /** out: its memory [bytes]. */
+    uint64_t memory;
+    /** out: what is free of it [bytes]. */
+    uint64_t free_memory;
     /** out: compute capability, e.g. 90 for 9.0. */
     int32_t capability;
     /** out: version of CUDA that the driver knows, e.g. 12040 for 12.4. */
