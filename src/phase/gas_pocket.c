@@ -188,9 +188,9 @@ static int find_pockets(mps_stage *s)
         f.pressure = pressure;
         f.pocket = now.pocket;
         if (any) mps__pocket_press(s, &f);
-        if (any) head.work = mps__pocket_work(s, &f);
     }
     if (had && !any) mps__pocket_clear(s, &f);
+    if (!any) head.flux = 0;
     return mps__pocket_write(s, &f.voids, &now, &head);
 }
 
@@ -363,7 +363,9 @@ static const mps_use book_uses[BOOK_USES] = {
     [BOOK_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [BOOK_CORRECTION] = {"correction", MPS_USE_NEIGHBOURS}};
 
-/* New volumes by the flux, and the second half of the work. */
+/* New volumes by the flux. Works of all forces add up to the kinetic energy if each is that with the
+ * mean of the velocities before and after the step. So that of the gas is p dt with the mean of the
+ * fluxes, and what liquid gains is what the gas has lost. */
 static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
     mps__pocket_faces f = {.region = s->data[BOOK_REGION],
@@ -371,16 +373,18 @@ static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
                            .correction = s->data[BOOK_CORRECTION]};
     if (mps__pocket_look(s, &f)) return 1;
     double *flux = mps_stage_scratch(s, f.voids.count + 1);
-    double *pressure = mps_stage_scratch(s, f.voids.count + 1);
-    if (!flux || !pressure || mps__pocket_sort(s, &f)) return 1;
-    mps__pocket_fluxes(s, &f, flux);
-    pressure[(int32_t)head->open] = head->ambient;
+    double *fluid = mps_stage_scratch(s, f.voids.count + 1);
+    if (!flux || !fluid || mps__pocket_sort(s, &f)) return 1;
+    mps__pocket_fluxes(s, &f, flux, fluid);
+    const double half = 0.5 * s->view->dt, open = fluid[(int32_t)head->open];
+    head->work = half * head->ambient * (head->flux + open);
+    head->flux = open;
     for (int32_t k = 0; k < (int32_t)head->pockets; k++) {
-        pocket[k].volume += s->view->dt * flux[(int32_t)pocket[k].place];
-        pressure[(int32_t)pocket[k].place] = pocket[k].pressure;
+        const int32_t place = (int32_t)pocket[k].place;
+        pocket[k].volume += s->view->dt * flux[place];
+        head->work += half * pocket[k].pressure * (pocket[k].flux + fluid[place]);
+        pocket[k].flux = fluid[place];
     }
-    f.pressure = pressure;
-    head->work += mps__pocket_work(s, &f);
     return 0;
 }
 

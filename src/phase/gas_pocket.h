@@ -17,6 +17,7 @@ typedef struct mps__pocket {
     double number;   /* from 1, in the order of closing */
     double since;    /* time of its closing [s] */
     double place;    /* component of the last raster */
+    double flux;     /* into fluid particles, at the end of the last step [m3/s] */
 } mps__pocket;
 
 /* What the state of the model begins with; then `pockets` of mps__pocket, then `runs` pairs. */
@@ -29,6 +30,7 @@ typedef struct mps__pocket_head {
     double work;    /* of the gas on the liquid in this step [J] */
     double open;    /* component that is the ambient, and its pressure [Pa] */
     double ambient;
+    double flux;     /* of it into fluid particles, at the end of the last step [m3/s] */
     double cells[3]; /* of the last raster */
     double runs;     /* runs of equal labels in it: (length, label), labels MPS__POCKET_... */
     double moved;    /* how far the surface has moved since then, at most [m] */
@@ -88,6 +90,7 @@ typedef struct mps__pocket_faces {
     const double *pressure;       /* [count] of components */
     const mps__pocket *pocket;    /* [count] the same */
     double *row, *slope, *number; /* channels that are written */
+    double row_volume;            /* of a particle, in areas of a face [m] */
     int32_t from;                 /* first component of a batch of sums */
 } mps__pocket_faces;
 
@@ -102,11 +105,10 @@ double mps__pocket_power(double side, int32_t dim);
 
 /* Sort the faces by row. @return non-zero after a failure */
 int mps__pocket_sort(mps_stage *s, mps__pocket_faces *f);
-/* Volumes of components [count] by cells and faces; flux into the liquid [m3/s]. */
+/* Volumes of components [count] by cells and faces [m3]. */
 void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume);
-void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux);
-/* Half of the work of pressures on the fluid in this step, with present velocities [J]. */
-double mps__pocket_work(mps_stage *s, const mps__pocket_faces *f);
+/* Fluxes into the liquid [m3/s], [count]: all; without half cells at walls, that have no particle. */
+void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux, double *fluid);
 /* Area of the faces of components with liquid behind them [count]. */
 void mps__pocket_areas(const mps__pocket_faces *f, double *area);
 /* Pressures, slopes of films and pockets of the rows: channels of gas.pocket. */

@@ -9,6 +9,13 @@
  * The first two terms do not change where a cell changes between void and liquid at a flat surface,
  * and their rate between such changes is the flux sum_f A e.u_i.
  *
+ * Flux. u is continued to the face. Rows of the surface have a given pressure and no equation of
+ * their divergence, and where the surface is a stair of the lattice the particles of an edge and of
+ * a corner move unlike each other. The liquid keeps its volume all the same: the flux from behind
+ * these rows is that through the faces and what the rows expand, dp^dim div u of each, shared by
+ * its faces. Without that the gas of a round pocket has 7 % less flux than the liquid, which gains
+ * energy from it.
+ *
  * Films. Across a film of thickness T between pressures p and p' the pressure is linear, so the
  * particle half a spacing behind the face of p has
  *
@@ -107,7 +114,7 @@ MPS_ROW int64_t surface_of(const int dim, const mps_view *v, const mps__pocket_f
 
 /* ---- sums over faces ---- */
 
-enum { BATCH = MPS_PARALLEL_VALUES, PAIR = MPS_PARALLEL_VALUES / 2 };
+enum { PAIR = MPS_PARALLEL_VALUES / 2 };
 
 /* Terms of volumes: e.(x_i - x_f) A, and the area of the surface of each particle. */
 MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
@@ -151,91 +158,90 @@ void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
     }
 }
 
-/* How the velocity of particle i changes from its place to x: u(x) - u_i, linear. Beside walls 0:
- * the moment matrix has them, and their velocity along the face is not that of the fluid. */
-MPS_ROW void velocity_change(const int dim, const mps_view *v, const mps__pocket_faces *f,
-                             int64_t i, const double *x, double *change)
+/* How the velocity changes about particle i: change_d = sum_e rise[d][e] (x_e - x_i_e). Beside walls
+ * 0: the moment matrix has them, and their velocity along the face is not that of the fluid. */
+MPS_ROW void velocity_rise(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                           double rise[3][3])
 {
     const mps_stencil *t = &v->near;
     const double *b = f->correction + i * dim * dim;
-    double way[3] = {0};
-    for (int d = 0; d < dim; d++) change[d] = 0;
-    for (int d = 0; d < dim; d++)
-        for (int e = 0; e < dim; e++)
-            way[d] += dim / t->n0 * b[d * dim + e] * (x[e] - v->x[i * dim + e]);
+    double raw[3][3] = {{0}};
+    for (int d = 0; d < 3; d++)
+        for (int e = 0; e < 3; e++) rise[d][e] = 0;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int64_t j = mps_stencil_column(t, p);
         if (mps_region_of(f->region, j) >= MPS_REGION_SPRAY) continue;
+        if (!mps_is_fluid(v, j)) return;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        double along = 0;
-        for (int d = 0; d < dim; d++) along += q.w_r2 * q.d[d] * way[d];
-        for (int d = 0; d < dim; d++)
-            change[d] += along * (f->velocity[j * dim + d] - f->velocity[i * dim + d]);
-        if (mps_is_fluid(v, j)) continue;
-        for (int d = 0; d < dim; d++) change[d] = 0;
-        return;
+        for (int d = 0; d < dim; d++) {
+            const double change = q.w_r2 * (f->velocity[j * dim + d] - f->velocity[i * dim + d]);
+            for (int e = 0; e < dim; e++) raw[d][e] += change * q.d[e];
+        }
     }
+    for (int d = 0; d < dim; d++)
+        for (int e = 0; e < dim; e++)
+            for (int k = 0; k < dim; k++) rise[d][e] += dim / t->n0 * raw[d][k] * b[k * dim + e];
 }
 
-/* Terms of fluxes: e.(u - u_tank) A, u at the face */
+/* Centre of a face in the lab. */
+static void face_place(const mps_view *v, const mps_voids *voids, int32_t face, double *x)
+{
+    double at[3] = {0};
+    face_centre(voids, face, at);
+    for (int d = 0; d < voids->dim; d++) at[d] -= v->tank.centre[d];
+    to_lab(v, at, x);
+    for (int d = 0; d < voids->dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
+}
+
+/* Terms of fluxes: e.(u - u_tank), u at the face, and the share of the face in what its row loses:
+ * dp^dim div u over the area. Then those of faces that a fluid particle has itself. */
 MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                       double *sums)
 {
+    const int32_t faces = f->begin[i + 1] - f->begin[i];
+    double rise[3][3] = {{0}}, lost = 0;
+    int64_t of = -1;
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         int32_t axis;
-        double tank[3], along[3] = {0}, lab[3] = {0}, at[3] = {0}, x[3], change[3];
-        if (label < 0 || label >= BATCH) continue;
-        along[f->voids.face_side[face] / 2] = direction(&f->voids, face, &axis);
+        double tank[3], along[3] = {0}, lab[3] = {0}, x[3] = {0}, flux;
+        if (label < 0 || label >= PAIR) continue;
+        const double sign = direction(&f->voids, face, &axis);
         const int64_t j = surface_of(dim, v, f, i, axis);
         if (j < 0) continue;
+        if (j != of) {
+            velocity_rise(dim, v, f, j, rise);
+            lost = j == i ? (rise[0][0] + rise[1][1] + rise[2][2]) * f->row_volume / faces : 0;
+            of = j;
+        }
+        along[axis] = sign;
         to_lab(v, along, lab);
         mps_view_tank(v, v->x + j * dim, NULL, tank);
-        face_centre(&f->voids, face, at);
-        for (int d = 0; d < dim; d++) at[d] -= v->tank.centre[d];
-        to_lab(v, at, x);
-        for (int d = 0; d < dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
-        velocity_change(dim, v, f, j, x, change);
-        for (int d = 0; d < dim; d++)
-            sums[label] += (f->velocity[j * dim + d] + change[d] - tank[d]) * lab[d];
+        face_place(v, &f->voids, face, x);
+        flux = lost;
+        for (int d = 0; d < dim; d++) {
+            double u = f->velocity[j * dim + d] - tank[d];
+            for (int e = 0; e < dim; e++) u += rise[d][e] * (x[e] - v->x[j * dim + e]);
+            flux += u * lab[d];
+        }
+        sums[2 * label] += flux;
+        if (j == i) sums[2 * label + 1] += flux;
     }
 }
 MPS_SUMS(add_fluxes, add_flux, mps__pocket_faces)
 
-void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux)
+void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux, double *fluid)
 {
     const double area = area_of(&f->voids);
-    for (f->from = 0; f->from < f->voids.count; f->from += BATCH) {
-        double sums[BATCH];
-        mps_stage_sum(s, BATCH, &add_fluxes, f, sums);
-        for (int32_t k = 0; k < BATCH && f->from + k < f->voids.count; k++)
-            flux[f->from + k] = area * sums[k];
+    f->row_volume = mps__pocket_power(s->view->dp, f->voids.dim) / area;
+    for (f->from = 0; f->from < f->voids.count; f->from += PAIR) {
+        double sums[2 * PAIR];
+        mps_stage_sum(s, 2 * PAIR, &add_fluxes, f, sums);
+        for (int32_t k = 0; k < PAIR && f->from + k < f->voids.count; k++) {
+            flux[f->from + k] = area * sums[2 * k];
+            fluid[f->from + k] = area * sums[2 * k + 1];
+        }
     }
-}
-
-/* p A e.u dt/2, of fluid alone: energies are those of particles. Half of the work is that with the
- * velocities before the step, half that with those after it: so works of all forces add up to the
- * kinetic energy. */
-MPS_ROW void add_work(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
-                      double *sum)
-{
-    double push[3] = {0}, lab[3] = {0};
-    if (!mps_is_fluid(v, i) || f->begin[i] == f->begin[i + 1]) return;
-    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
-        int32_t axis;
-        const double sign = direction(&f->voids, f->face[k], &axis);
-        push[axis] += sign * f->pressure[f->voids.face_label[f->face[k]]];
-    }
-    to_lab(v, push, lab);
-    for (int d = 0; d < dim; d++) sum[0] += 0.5 * v->dt * lab[d] * f->velocity[i * dim + d];
-}
-MPS_SUMS(add_works, add_work, mps__pocket_faces)
-
-double mps__pocket_work(mps_stage *s, const mps__pocket_faces *f)
-{
-    double work;
-    mps_stage_sum(s, 1, &add_works, f, &work);
-    return work * area_of(&f->voids);
 }
 
 void mps__pocket_areas(const mps__pocket_faces *f, double *area)

@@ -75,6 +75,7 @@ static void share_pocket(const mps_voids *v, const mps__pocket *p, int32_t pocke
         }
         q->gas += share * p->gas;
         q->volume += share * p->volume;
+        q->flux += share * p->flux;
         left -= share * p->gas;
     }
     if (open > 0) head->vented += left;
