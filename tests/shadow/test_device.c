@@ -309,7 +309,7 @@ static void costs(void **state)
  * come from the host. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{100, 195}, {105, 200}}, {{110, 230}, {115, 235}}};
+    static const double range[2][2][2] = {{{60, 100}, {60, 105}}, {{60, 110}, {65, 120}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);
