@@ -233,7 +233,7 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
         MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     choose_rows(w, all);
-    mps__twins_rows_drop(&w->host.twins); /* those of the last lists, which may be newer than the host's */
+    mps__twins_rows_drop(&w->host.twins); /* of the last lists; they may be newer */
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
                                   w->setup.re_far);
 }
