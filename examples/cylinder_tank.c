@@ -27,15 +27,13 @@ static double shell(void *user, const double *x)
 
 static void add_shell(driver *d, cylinder_case *c)
 {
-    const double lo[] = {0, 0, -RADIUS}, hi[] = {STRAIGHT + 2 * END, 2 * RADIUS, RADIUS};
     mps_solid solid;
+    *c = (cylinder_case){{0, 0, -RADIUS}, {STRAIGHT + 2 * END, 2 * RADIUS, RADIUS}, 0};
     mps_solid_init(&solid, sizeof solid);
     solid.name = "tank";
     solid.distance = shell;
-    memcpy(solid.lo, lo, sizeof lo);
-    memcpy(solid.hi, hi, sizeof hi);
-    memcpy(c->lo, lo, sizeof lo);
-    memcpy(c->hi, hi, sizeof hi);
+    memcpy(solid.lo, c->lo, sizeof solid.lo);
+    memcpy(solid.hi, c->hi, sizeof solid.hi);
     driver_check(d, mps_solid_add(d->sim, &solid), "tank");
 }
 
