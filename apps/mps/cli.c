@@ -28,7 +28,7 @@ const option cli_options[] = {
      "angular frequencies in place of periods, '4 to 8 step 0.5 rad/s'", OPTION_TEXT,
      offsetof(choices, omega)},
     {HAS_FREQUENCIES, "--amplitude", 0, "VALUE",
-     "of the motion; of a shift an angle is its acceleration over g; default 0.25 deg", OPTION_TEXT,
+     "of the motion; for a shift, an angle s means s g/w^2; default 0.25 deg", OPTION_TEXT,
      offsetof(choices, amplitude)},
     {HAS_FREQUENCIES, "--periods", 0, "N",
      "periods that are measured; default 8 to 24, most near resonance", OPTION_COUNT,
@@ -40,8 +40,8 @@ const option cli_options[] = {
     {HAS_QUIET, "--quiet", 'q', NULL, "print failures only", OPTION_FLAG, offsetof(choices, quiet)},
     {HAS_PROFILE, "--profile", 0, NULL, "print the time that each part of a step takes",
      OPTION_FLAG, offsetof(choices, profile)},
-    {HAS_DEVICE, "--device", 0, "NAME", "where steps run: cuda, cuda:1; default: here", OPTION_TEXT,
-     offsetof(choices, device)},
+    {HAS_DEVICE, "--device", 0, "NAME", "device of the time steps: cuda, cuda:1; default: the host",
+     OPTION_TEXT, offsetof(choices, device)},
     {HAS_MPI, "--mpi", 0, NULL, "one run on all processes that mpirun starts", OPTION_FLAG,
      offsetof(choices, mpi)}};
 

@@ -73,13 +73,15 @@ static int no_memory(const coefficients *k)
 static int read_degrees(coefficients *k)
 {
     const char *at = k->c->degrees;
+    char name[TEXT_SIZE];
     while (at && *(at += strspn(at, ", "))) {
         const size_t length = strcspn(at, ", ");
         const int32_t degree = forced_degree(at, length);
+        snprintf(name, sizeof name, "--degrees: '%.*s'", (int)length, at);
         if (degree < 0)
-            return refuse(k, at, "no degree; there are surge, sway, heave, roll, pitch and yaw");
+            return refuse(k, name, "no degree; there are surge, sway, heave, roll, pitch and yaw");
         for (int32_t i = 0; i < k->degrees; i++)
-            if (k->degree[i] == degree) return refuse(k, at, "this degree is named twice");
+            if (k->degree[i] == degree) return refuse(k, name, "this degree is named twice");
         k->degree[k->degrees++] = degree;
         at += length;
     }
@@ -210,17 +212,31 @@ static bool write_tilt(const char *path, const char *name, double T1)
     return fclose(out) == 0 && good;
 }
 
+/* A text of YAML in single quotes: those within it are doubled. @param out  [twice the text and 3] */
+static void quote(const char *text, char *out)
+{
+    *out++ = '\'';
+    for (; *text; text++) {
+        if (*text == '\'') *out++ = '\'';
+        *out++ = *text;
+    }
+    *out++ = '\'';
+    *out = '\0';
+}
+
 /* C of an angle. @param T1  [s] */
 static int run_tilt(coefficients *k, int32_t at, int32_t index, int32_t runs, double T1)
 {
     const double from[2] = {T1, T1 * (TILT_UNTIL - 3)}, until[2] = {T1 * 4, T1 * TILT_UNTIL};
-    char motion[2 * MOTION_SIZE], path[SERIES_PATH + 32], end[TEXT_SIZE], folder[SERIES_PATH];
+    char motion[2 * MOTION_SIZE], path[SERIES_PATH + 32], quoted[2 * sizeof path + 1],
+        end[TEXT_SIZE], folder[SERIES_PATH];
     double C[FORCED_DEGREES];
     const char *name = forced_names[k->degree[at]];
     snprintf(path, sizeof path, "%s/tilt_%s.csv", k->place, name);
-    snprintf(motion, sizeof motion, "motion={%s%sfile: '%s', columns: {%s: %s}}", k->motion,
-             strstr(k->motion, "axes:") ? "" : "axes: 'x forward, y up, z starboard', ", path, name,
-             name);
+    quote(path, quoted);
+    snprintf(motion, sizeof motion, "motion={%s%sfile: %s, columns: {%s: %s}}", k->motion,
+             strstr(k->motion, "axes:") ? "" : "axes: 'x forward, y up, z starboard', ", quoted,
+             name, name);
     snprintf(end, sizeof end, "run.until=%.9g s", T1 * TILT_UNTIL);
     if (!write_tilt(path, name, T1)) return refuse(k, path, strerror(errno));
     const int code = run_motion(k, index, runs, motion, end);

@@ -161,9 +161,8 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
            quantity(info.window, "s"), quantity(info.t_first, "s"), quantity(info.t_last, "s"),
            (long long)info.cut);
     if (info.events == 0 && info.cut > 0)
-        printf("  it is above that where the record begins or ends: a larger impacts.threshold may "
-               "find "
-               "peaks\n");
+        printf("  the pressure is above that where the record begins or ends: a larger "
+               "impacts.threshold may find peaks\n");
     print_highest(impacts);
     print_value(impacts, &info, c);
 }

@@ -46,23 +46,18 @@ static const char SERIES_TEXT[] =
     "Exit: 0 all are done, else the largest exit code of the runs.\n";
 
 static const char COEFFICIENTS_TEXT[] =
-    "F = -A a - B v - C x: loads of the liquid by small oscillations in one degree at a time, "
-    "after\n"
-    "a ramp, about motion.centre, axes of the lab. A holds all of the liquid's mass: give the "
-    "ship\n"
-    "none of it. C is from a slow tilt, by pressures of walls, and holds the weight of the liquid. "
-    "A and B of a row are "
-    "those\n"
-    "of a motion at its frequency; bands are 90 %, by the scatter from period to period. Loads "
-    "are\n"
-    "those by momentum (sensors.*.load); A by the pressures of walls stands beside them.\n"
-    "Periods are 1/0.5 to 1/1.5 T1 if none are given; T1 itself is left out. Each run has a folder "
-    "of\n"
-    "its own, DIR/001 and so on. The same line again skips the runs that are done and continues "
-    "an\n"
-    "interrupted one. The tables: DIR/coefficients.csv, and coefficients.dat with plain columns "
-    "for\n"
-    "seakeeping programs: period [s], i, j, A_ij, B_ij; load i by motion j, 1 surge to 6 yaw.\n"
+    "F = -A a - B v - C x: loads of the liquid in small oscillations, one degree at a time, after\n"
+    "a ramp, about motion.centre, axes of the lab. A contains the mass of the liquid: the ship "
+    "must\n"
+    "not contain it. C is from a slow tilt, by pressures of walls, and contains the weight of the\n"
+    "liquid. Bands are 90 %, by the scatter from period to period. Loads are by the momentum of\n"
+    "the liquid (sensors.*.load); 'A walls' is by the pressures of the walls.\n"
+    "Periods are 1/0.5 to 1/1.5 T1 if none are given; T1 itself is left out. Each run has a "
+    "folder\n"
+    "of its own, DIR/001 and so on. The same command again skips runs that are done and continues\n"
+    "an interrupted one. The tables: DIR/coefficients.csv, and coefficients.dat with plain "
+    "columns\n"
+    "for seakeeping programs: period [s], i, j, A_ij, B_ij; load i by motion j, 1 surge to 6 yaw.\n"
     "Exit: 0 all are done, else the largest exit code of the runs.\n";
 
 const verb cli_verbs[] = {

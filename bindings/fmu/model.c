@@ -53,6 +53,18 @@ static bool read_dim(fmu_model *m, char *error, size_t size)
     return true;
 }
 
+/* The importer moves the tank, so that a body of the case would have no motion to tell. */
+static bool refuse_body(fmu_model *m, char *error, size_t size)
+{
+    mps_body_report report;
+    mps_body_report_init(&report, sizeof report);
+    if (mps_body_get(m->sim, &report) != MPS_OK) return true;
+    return fail(error, size,
+                "the case has a 'body': the importer of an FMU computes the body; give 'motion' "
+                "with the same centre in its place",
+                "");
+}
+
 bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, char *error,
                     size_t size)
 {
@@ -70,7 +82,7 @@ bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, c
     config.error_size = sizeof why;
     const int32_t before = mps_case_message_count(c);
     const mps_status status = mps_case_job(c, &config, &m->job, &m->sim);
-    if (status == MPS_OK) return read_dim(m, error, size);
+    if (status == MPS_OK) return refuse_body(m, error, size) && read_dim(m, error, size);
     if (mps_case_message_count(c) > before)
         mps_case_messages_write(c, error, size);
     else

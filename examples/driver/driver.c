@@ -130,7 +130,7 @@ static int make_table(driver *d, option *table)
     table[n++] = (option){"--t-end", "S", "time simulated [s]", TYPE_REAL, &d->t_end, 0, d->t_max, false, NULL};
     table[n++] = (option){"--threads", "N", "threads of the simulation", TYPE_INT, &d->threads, 1, THREADS_MOST, false, NULL};
     table[n++] = (option){"--mpi", NULL, "one run on the ranks that mpirun starts, one thread each unless --threads says more", TYPE_FLAG, &d->mpi, 0, 0, true, NULL};
-    table[n++] = (option){"--device", "NAME", "where steps run: cuda, or cuda:1; default: here", TYPE_TEXT, &d->device, 0, 0, false, NULL};
+    table[n++] = (option){"--device", "NAME", "device of the time steps: cuda, or cuda:1; default: the host", TYPE_TEXT, &d->device, 0, 0, false, NULL};
     table[n++] = (option){"--solver", "NAME", "pressure solver, or solver/preconditioner", TYPE_TEXT, &d->solver, 0, 0, false, NULL};
     table[n++] = (option){"--out", "DIR", "folder for all outputs", TYPE_TEXT, &d->out, 0, 0, false, NULL};
     table[n++] = (option){"--frames", "N", "frames for ParaView besides the first; 0: none", TYPE_INT, &d->frames, 0, FRAMES_MOST, false, NULL};

@@ -11,18 +11,18 @@
  *    I w' + w x I w + r x m b = moment of all loads about c,
  *    loads = F + weight + external load - K (q - q_0) - C dq/dt,
  *
- *  along the free degrees; I is the inertia about the centre of mass. F is
- *  the load of the liquid, mps_load. It depends on the acceleration of the very step, F = F0 - A a,
- *  so a follows from (M + A) a = F0 + other loads: one more solution of the pressure equation for
- *  each free degree, with the matrix of the step. Pressures, walls and liquid of the step then get
- *  that acceleration. Nothing is iterated and no step is done twice: a body without mass works, and
- *  so does one that is much lighter than its liquid.
+ *  along the free degrees; I is the inertia about the centre of mass. F is the load of the liquid,
+ *  mps_load. It depends on the acceleration of the same step, F = F0 - A a, so a follows from
+ *  (M + A) a = F0 + other loads: one more solution of the pressure equation for each free degree,
+ *  with the matrix of the step. Pressures, walls and liquid of the step then get that acceleration.
+ *  Nothing is iterated and no step is done twice. The mass may be 0, or much less than that of the
+ *  liquid.
  *
  *  A mean velocity over a step belongs to its middle. So do K and C: springs act by the mean of
- *  three poses, (q_before + 2 q + q_next)/4, without damping of their own, in steps of any length.
- *  What the liquid does to the walls after its pressures are known (collisions of spray), the body
- *  feels in the next step, so that it gets all of mps_load.force. Walls that separate from the
- *  liquid because the acceleration has changed do so in the next step, too. */
+ *  three poses, (q_before + 2 q + q_next)/4, without numerical damping, in steps of any length.
+ *  Collisions of spray load the walls after the pressures are known: that load acts on the body in
+ *  the next step, so that it gets all of mps_load.force. Walls that separate from the liquid
+ *  because the acceleration has changed separate in the next step, too. */
 #ifndef MPS_BODY_H
 #define MPS_BODY_H
 
@@ -80,9 +80,9 @@ typedef struct mps_body {
  *  @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_body_init(mps_body *body, size_t size);
 
-/** Let a body carry the tank. It takes the place of the motion and goes on with its pose and rates;
- *  rates of degrees that are not free become 0. The next motion takes its place. To begin at
- *  another pose, set a motion that has it before.
+/** Let a body carry the tank. The body replaces the motion and begins with its pose and rates;
+ *  rates of degrees that are not free become 0. The next motion that is set replaces the body. To
+ *  begin at another pose, set a motion that has this pose first.
  *
  *  Once set, the added mass of the free degrees is found in each step; mps_load_get() gives the
  *  load of all steps, and the whole A only with MPS_LOAD_MASS of mps_load_watch(). The first call
@@ -90,8 +90,8 @@ MPS_API mps_status mps_body_init(mps_body *body, size_t size);
  *  cannot be restored after it. Snapshots and checkpoints hold the motion of the body and its
  *  energies, not `body` itself: set it again before a checkpoint is read.
  *
- *  Steps are as long as without a body. Set mps_time_control.dt_max to a twentieth of the shortest
- *  period of the body and of its load: the library does not know it.
+ *  A body does not limit the time step. Set mps_time_control.dt_max to a twentieth of the shortest
+ *  period of the body and of its load.
  *  @param body  initialised by mps_body_init(); copied. NULL: no body; the tank stays where it is,
  *               as after mps_motion_clear(), if a body carries it
  *
@@ -143,9 +143,10 @@ typedef struct mps_body_report {
     double kinetic;
     /** out: q' K q'/2 of q' = q - q_0 in the middle of the step [J]. */
     double spring;
-    /** out: -m g times the displacement of the centre of mass since mps_body_set() [J]. */
+    /** out: potential energy of the weight, -m g times the displacement of the centre of mass since
+     *  mps_body_set() [J]. */
     double weight;
-    /** out: taken by C since mps_body_set() [J]. */
+    /** out: energy that C has dissipated since mps_body_set() [J]. */
     double damped;
     /** out: work of the external load since then [J]. */
     double external_work;
@@ -153,7 +154,7 @@ typedef struct mps_body_report {
     double liquid_work;
     /** out: kinetic + spring + weight at mps_body_set() [J]. Later
      *  kinetic + spring + weight = start + external_work + liquid_work - damped: exact for
-     *  displacements in steps of one length, else to second order in dt. */
+     *  translations in steps of equal length, else to second order in dt. */
     double start;
 } mps_body_report;
 

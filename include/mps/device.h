@@ -2,16 +2,16 @@
 /** @file device.h  Plug-in interface of a device: an accelerator with memory of its own, on which
  *  the loops of a time step run.
  *
- *  A device knows memory and loops, and no particles. The library decides where the values of an
- *  array are valid, and copies nothing else. A loop has a name and gets its arguments by value:
- *  numbers and addresses of the device. Its text is that of the row function of the library:
- *  scripts of the library compile the same files for devices. So results have the bytes of a step
- *  on the host, on any device whose doubles follow IEEE 754 without fused operations.
+ *  A device has memory and runs loops; this interface has no particles. The library records where
+ *  the values of an array are valid, and copies only what is not. A loop has a name and gets its
+ *  arguments by value: numbers and addresses of the device. Scripts of the library compile the same
+ *  row functions for host and devices. So results have the bytes of a step on the host, on any
+ *  device whose doubles follow IEEE 754 without fused operations.
  *
- *  Calls come from the thread that calls the library, and have effect in their order; a device may
- *  return from them early, but from download, values and wait only when all is done that was
- *  begun. Functions that return int return 0, or non-zero when the device failed: then the step
- *  fails with MPS_E_PLUGIN and the text of `failure`. */
+ *  Calls come from the thread that calls the library, and take effect in their order. A device may
+ *  return before the work of a call is done; download, values and wait return after the work of all
+ *  calls before them. Functions that return int return 0, or non-zero when the device failed: then
+ *  the step fails with MPS_E_PLUGIN and the text of `failure`. */
 #ifndef MPS_DEVICE_H
 #define MPS_DEVICE_H
 
@@ -24,8 +24,8 @@ MPS_BEGIN_DECLS
 /** Version of this interface, for mps_device_ops.api. */
 #define MPS_DEVICE_API 1u
 
-/** One loop over rows 0..n-1. All of it is valid for the call only: a device copies what it
- *  needs later. */
+/** One loop over rows 0..n-1. The struct and what it points to are valid during the call only: a
+ *  device that returns early copies them. */
 typedef struct mps_launch {
     /** sizeof(mps_launch) of the library */
     uint32_t struct_size;
@@ -57,7 +57,7 @@ typedef struct mps_launch {
     const void *host;
 } mps_launch;
 
-/** A device. Functions must not be NULL unless it is said. */
+/** A device. A function must not be NULL unless its comment allows it. */
 typedef struct mps_device_ops {
     /** sizeof(mps_device_ops) */
     uint32_t struct_size;
@@ -70,13 +70,13 @@ typedef struct mps_device_ops {
     void *self;
     /** Memory of the device for `bytes` > 0, aligned to 256 bytes; values are not defined. The
      *  library adds offsets to the address and follows it on the device only.
-     *  @return NULL: there is none */
+     *  @return NULL: out of memory */
     void *(*room)(void *self, uint64_t bytes);
-    /** Give it back. */
+    /** Free memory of `room`. */
     void (*give)(void *self, void *room);
     /** Copy from the host. `from` may change after the call. */
     int (*upload)(void *self, void *to, const void *from, uint64_t bytes);
-    /** Copy to the host, when all is done that was begun. */
+    /** Copy to the host, after the work of all calls before. */
     int (*download)(void *self, void *to, const void *from, uint64_t bytes);
     /** Set bytes of the device to 0. */
     int (*clear)(void *self, void *to, uint64_t bytes);
@@ -89,7 +89,7 @@ typedef struct mps_device_ops {
      *  @param sum  [launch->sums] terms are added to what they hold before
      *  @param maximum  [launch->maxima] not below what they hold before */
     int (*values)(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
-    /** Wait until all is done that was begun. */
+    /** Wait for the work of all calls before. */
     int (*wait)(void *self);
     /** Why a function failed, one line. NULL: not known. */
     const char *(*failure)(void *self);
@@ -99,7 +99,7 @@ typedef struct mps_device_ops {
     /** NULL, or called by mps_sim_device_set() before all others: the device opens. Non-zero
      *  refuses, with the text of `failure`. */
     int (*begin)(void *self);
-    /** NULL, or called when the library needs the device no more: another one was set, or the
+    /** NULL, or called when the library no longer uses the device: another one was set, or the
      *  handle is destroyed. Not after a failed mps_sim_device_set(). */
     void (*end)(void *self);
 } mps_device_ops;
@@ -128,10 +128,11 @@ typedef struct mps_device_info {
     int64_t bytes_held;
 } mps_device_info;
 
-/** Run the steps of this handle on a device from now on; NULL: on the host. What has no loop on a
- *  device runs on the host, with copies of what it reads and writes; the log names it once. Verbs
- *  of other models than those of the library always do. Results have the same bytes either way.
- *  With a kernel function of the user, mps_kernel_custom(), all of a step stays on the host.
+/** Run the steps of this handle on a device from now on; NULL: on the host. A call of the step
+ *  without loops for devices runs on the host, with copies of the arrays that it reads and writes;
+ *  the log names it once. Verbs of models outside the library always run on the host, and so does
+ *  the whole step with a kernel function of the user, mps_kernel_custom(). Results have the same
+ *  bytes either way.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_BUSY (a lease is open),
  *  MPS_E_STATE (the handle has more than one rank: not supported), MPS_E_NOMEM, MPS_E_PLUGIN (the
  *  device does not open); the handle is as before then */

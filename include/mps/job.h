@@ -164,7 +164,7 @@ typedef struct mps_job_config {
     /** Spacing as asked for [m], >= 0, for summary.json and messages: the first tank changes
      *  mps_config.dp. Default 0: not told. */
     double dp;
-    /** Where steps run: NULL: on the host; "cuda", "cuda:1": on a GPU of NVIDIA, by libmps_cuda,
+    /** Device of the time steps. NULL: the host; "cuda", "cuda:1": a GPU of NVIDIA, by libmps_cuda,
      *  which mps_job_run() loads. The outputs are the same. */
     const char *device;
 } mps_job_config;

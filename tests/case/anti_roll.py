@@ -103,7 +103,11 @@ def quick():
         period = float(said.split("with the moving liquid, by linear theory")[1].split(" and ")[1].split()[0])
         check(abs(period * omega / (2 * math.pi) - 1) < 2e-4, f"{mass} kg: {2 * math.pi / period:.4f} rad/s, {omega} by theory")
     run("check", "spring.yaml", "--set", "fill.water.depth=0.25 m", "--set",
-        "body={mass: 1 kg, centre: 0.4 0 m, inertia: 10 kg m2, roll: {stiffness: 600 N m/rad}}", text="it falls over: that takes 663.8 N m/rad")
+        "body={mass: 1 kg, centre: 0.4 0 m, inertia: 10 kg m2, roll: {stiffness: 600 N m/rad}}", text="it falls over: it needs 663.8 N m/rad/m")
+    run("check", "spring.yaml", "--set", "body={mass: 1 kg, surge: {stiffness: -5 N/m}}", text="with the moving liquid: nothing restores")
+    said = run("check", "spring.yaml")
+    check("surge: mass 500 kg/m, restoring" in said and "N/m/m, damping" in said and "N s/m/m\n" in said, "2-D: units per metre of width")
+    check("Displacement of the body, surge: of its centre, axes of the lab\n" in said, "columns of a shift are not about the centre")
     refused("body.surge.period=0 s", "body.surge.period")
     refused("body.heave={period: 1 s, stiffness: 1 N/m}", "exclude each other")
     refused("body={mass: 1 kg}", "no degree is free")

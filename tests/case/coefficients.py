@@ -58,7 +58,7 @@ def compare(rows, tank, load, motion, most, column=""):
 def quick():
     write_case("box.yaml", "40 mm", 0.24)
     few = ("--period", "1 1.666666667 T1", "--periods", "4", "-j", "1")
-    run("coefficients", "box.yaml", "--degrees", "roll sweet", code=2, text="no degree")
+    run("coefficients", "box.yaml", "--degrees", "roll sweet heave", code=2, text="--degrees: 'sweet': no degree")
     run("coefficients", "box.yaml", "--degrees", "roll roll", code=2, text="named twice")
     run("coefficients", "box.yaml", "--omega", "5 rad/s", "--period", "1 s", code=2, text="not both")
     run("coefficients", "box.yaml", "--period", "1.2 kg", code=2, text="time")
@@ -78,6 +78,8 @@ def quick():
     check([p[1:3] for p in plain] == 2 * [["1", "1"], ["3", "1"], ["4", "1"]], "load and motion of the plain table")
     check(abs(float(plain[0][3]) / rows[0]["A_surge_surge"] - 1) < 1e-6, "A of the plain table")
     run("coefficients", "box.yaml", *few, "-o", "out", text="is done already")
+    os.mkdir("o'clock")  # the tilt of a turn has its table there
+    run("coefficients", "box.yaml", "--degrees", "roll", "--period", "0.3 s", "--periods", "1", "-j", "1", "-q", "-o", "o'clock/out", text="; C -")
     run("coefficients", "box.yaml", *few, "-o", "out", "--amplitude", "3 mm", code=2, text="another case")
 
 

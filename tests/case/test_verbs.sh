@@ -130,7 +130,7 @@ printf 't[s],P[Pa]\n0,5\n1,7\n2,5\n3,6\n' > poor/probes.csv # the liquid at rest
 cp flat/summary.json poor/
 expect 0 "P: 0 events" "$program" stats poor
 says "above 1 Pa, .*; 1 left out at the ends$"
-says "it is above that where the record begins or ends: a larger impacts.threshold may find peaks$"
+says "the pressure is above that where the record begins or ends: a larger impacts.threshold may find peaks$"
 cp flat/probes.csv poor/
 printf '{"t_end": 3, "inputs": [{"key": "impacts.share", "value": "2"}]}\n' > poor/summary.json
 expect 2 "poor: 'share' is 2" "$program" stats poor

@@ -245,9 +245,9 @@ static double column_value(void *user, mps_sim *sim)
 static bool add_column(const sensing *s, int32_t degree, body_value what)
 {
     static const char *const name[] = {"body_", "body_rate_", "body_liquid_", "body_external_"},
-                             *const about[] = {"Place of the body, ", "Velocity of the body, ",
-                                               "Load of the liquid on the body, ",
-                                               "External load on the body, "};
+                             *const about[] = {"Displacement of the body", "Velocity of the body",
+                                               "Load of the liquid on the body",
+                                               "External load on the body"};
     static const char *const unit[2][2][BODY_VALUES] = {
         {{"m", "m/s", "N/m", "N/m"}, {"deg", "deg/s", "N m/m", "N m/m"}},
         {{"m", "m/s", "N", "N"}, {"deg", "deg/s", "N m", "N m"}}};
@@ -259,8 +259,10 @@ static bool add_column(const sensing *s, int32_t degree, body_value what)
     mps__degree_to_lab(s->b->motion, degree, &k->dof, &k->factor);
     if (turn && what <= BODY_RATE) k->factor *= 180 / acos(-1.0);
     snprintf(column, sizeof column, "%s%s", name[what], mps__degrees[degree]);
-    snprintf(text, sizeof text, "%s%s: about its centre, axes of the lab", about[what],
-             mps__degrees[degree]);
+    snprintf(text, sizeof text, "%s, %s: %saxes of the lab", about[what], mps__degrees[degree],
+             turn                ? "about its centre, "
+             : what <= BODY_RATE ? "of its centre, "
+                                 : "");
     return mps__sensor_value(s, column, unit[s->b->dim - 2][turn][what], text, column_value, k);
 }
 

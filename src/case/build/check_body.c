@@ -14,6 +14,12 @@ static void write_period(const writer *w, const char *how, double period, const 
         fprintf(w->file, " = %.3g T1", period / b->modes.period[0]);
 }
 
+/* Of units of masses and loads. */
+static const char *per_width(const build *b)
+{
+    return b->dim == 2 ? "/m" : "";
+}
+
 /* The two lowest periods with the moving liquid, of a box. */
 static void write_coupled(const writer *w, const build *b, int32_t degree)
 {
@@ -25,9 +31,13 @@ static void write_coupled(const writer *w, const build *b, int32_t degree)
     if ((!along && !turn) || !mps__pendulum_make(b, b->motion->centre, &p)) return;
     fprintf(w->file, "\n");
     mps__check_heading(w, "");
-    if (b->body->stiffness[degree] + mps__pendulum_stiffness(&p, turn, 0) < 0) {
-        fprintf(w->file, "    with the moving liquid it falls over: that takes %.4g N m/rad",
-                -mps__pendulum_stiffness(&p, turn, 0));
+    const double least = -mps__pendulum_stiffness(&p, turn, 0);
+    if (b->body->stiffness[degree] < least) {
+        if (turn)
+            fprintf(w->file, "    with the moving liquid it falls over: it needs %.4g N m/rad%s",
+                    least, per_width(b));
+        else
+            fprintf(w->file, "    with the moving liquid: nothing restores");
         return;
     }
     mps__pendulum_periods(&p, turn, b->body->mass[degree], b->body->stiffness[degree], period);
@@ -38,7 +48,7 @@ static void write_coupled(const writer *w, const build *b, int32_t degree)
 void mps__check_write_body(const writer *w, const build *b)
 {
     const build_body *body = b->body;
-    const char *width = b->dim == 2 ? "/m" : "";
+    const char *width = per_width(b);
     frozen liquid;
     if (!mps__body_frozen(b, &liquid)) return;
     mps__check_heading(w, "body");
@@ -53,10 +63,10 @@ void mps__check_write_body(const writer *w, const build *b)
         if (!body->axes.used[d]) continue;
         const bool turn = d >= MPS_SHIP_ROLL;
         mps__check_heading(w, "");
-        fprintf(w->file, "%s: %s %.4g %s, restoring %.4g %s, damping %.4g %s\n", mps__degrees[d],
-                turn ? "inertia about the centre" : "mass", body->mass[d], turn ? "kg m2" : "kg",
-                body->stiffness[d], turn ? "N m/rad" : "N/m", body->damping[d],
-                turn ? "N m s/rad" : "N s/m");
+        fprintf(w->file, "%s: %s %.4g %s%s, restoring %.4g %s%s, damping %.4g %s%s\n",
+                mps__degrees[d], turn ? "inertia about the centre" : "mass", body->mass[d],
+                turn ? "kg m2" : "kg", width, body->stiffness[d], turn ? "N m/rad" : "N/m", width,
+                body->damping[d], turn ? "N m s/rad" : "N s/m", width);
         mps__check_heading(w, "");
         write_period(w, "    natural period without liquid", mps__body_period(b, d, NULL), b);
         write_period(w, "; with the liquid frozen", mps__body_period(b, d, &liquid), b);

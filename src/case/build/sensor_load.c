@@ -99,7 +99,7 @@ void mps__sensor_load(const sensing *s)
     int32_t probe = -1;
     const int32_t how = mps__read_choice(b->c, s->map, "load", LOAD_MOMENTUM);
     if (!b->motion) {
-        mps__sensor_say(s, "load", "needs a motion, whose degrees name its columns");
+        mps__sensor_say(s, "load", "needs 'motion' or 'body', whose degrees name its columns");
         return;
     }
     memcpy(centre, b->motion->centre, sizeof centre);

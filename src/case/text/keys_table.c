@@ -172,7 +172,7 @@ const mps__key mps__keys[] = {
     MAPS(MOVE, "along the axes of the ship; 2-D: surge (along x) and heave. A list of such maps: their sum"),
     ONE(MOVE ".amplitude", UNIT_LENGTH, "", "", "20 mm", "amplitude"),
     ONE(MOVE ".slope", UNIT_ANGLE, "", "", "0.25 deg",
-        "in place of the amplitude: that of the acceleration is g times it, like that of a slow roll"),
+        "in place of the amplitude: the angle whose product with g is the amplitude of the acceleration"),
     ONE(MOVE ".acceleration", UNIT_ACCEL, "", "", "-19.62 m/s2", "constant acceleration from rest"),
     MAPS(TURN, "about the axes of the ship; 2-D: roll, counterclockwise; pitch with `forward: x`. A list: their sum"),
     ONE(TURN ".amplitude", UNIT_ANGLE, "", "", "4 deg", "amplitude"),
