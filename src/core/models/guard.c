@@ -26,10 +26,26 @@ static void protect(mps__guard *g, const char *name, const void *array, size_t e
     g->element += element;
 }
 
-/* Whether an engine has newer values: those on the host may be brought up to date during the call. */
-static bool is_old(const mps__host *h, int32_t channel)
+/* Whether a device has newer values: those on the host may be brought up to date during the call. */
+static bool is_old(const mps__host *h, int32_t twin)
 {
-    return h->twins.open && h->twins.list[channel].old[MPS__ON_HOST];
+    return h->twins.open && h->twins.list[twin].old[MPS__ON_HOST];
+}
+
+/* The same of a channel, or of another one that lives in its memory. */
+static bool is_old_memory(const mps__host *h, int32_t channel)
+{
+    const mps__channel *own = &h->channels->list[channel];
+    const char *array = mps__channels_array(h->channels, h->particles, channel);
+    const size_t n = (size_t)h->particles->n, bytes = n * mps__channel_element(own);
+    bool old = is_old(h, channel);
+    for (int32_t k = 0; k < h->channels->count && !old; k++) {
+        const mps__channel *c = &h->channels->list[k];
+        const char *other = mps__channels_array(h->channels, h->particles, k);
+        old = is_old(h, k) && other && c->where == MPS__IN_ARENA &&
+              array < other + n * mps__channel_element(c) && other < array + bytes;
+    }
+    return old;
 }
 
 /* Channels of models come first: memory that they share has their names. */
@@ -39,8 +55,8 @@ static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call
         const int32_t k = (m + MPS__OWN_CHANNELS) % h->channels->count;
         const mps__channel *c = &h->channels->list[k];
         const void *array = mps__channels_array(h->channels, h->particles, k);
-        if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) && !is_old(h, k) &&
-            !may_write(h, call, array, mps__channel_element(c)))
+        if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) &&
+            !is_old_memory(h, k) && !may_write(h, call, array, mps__channel_element(c)))
             protect(g, c->spec.name, array, mps__channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields; k++) {
