@@ -18,10 +18,10 @@ static const double TILT_BEGIN = 4, TILT_END = 12, TILT_UNTIL = 16, TILT_ANGLE =
 
 /* ---- what is asked for ---- */
 
+/* Each line of the text of a case ends with '\n'. */
 static const char *next_line(const char *line)
 {
-    line += strcspn(line, "\n");
-    return line + (*line == '\n');
+    return line + strcspn(line, "\n") + 1;
 }
 
 /* The next line of the block of a key, "  centre: 0 0 m"; NULL: it ends. @param line  NULL: the first */
@@ -30,17 +30,17 @@ static const char *block_line(const mps_case *tank, const char *key, const char 
     const size_t length = strlen(key);
     if (!line) {
         line = mps_case_text(tank);
-        while (line && *line && (strncmp(line, key, length) != 0 || line[length] != ':'))
+        while (*line && (strncmp(line, key, length) != 0 || line[length] != ':'))
             line = next_line(line);
-        if (!line || !*line) return NULL;
+        if (!*line) return NULL;
     }
     for (line = next_line(line); *line == ' '; line = next_line(line))
-        if (line[1] == ' ' && line[2] != ' ' && line[2] != '-') return line;
+        if (line[2] != ' ') return line; /* by two blanks */
     return NULL;
 }
 
-/* Centre and axes of the motion, or of the body; degrees that it moves, where the user names none. */
-static void read_block(coefficients *k, const mps_case *tank, const char *key)
+/* Centre and axes of the motion, or of the body; degrees that it moves, where the user names none. @return false: they have no room */
+static bool read_block(coefficients *k, const mps_case *tank, const char *key)
 {
     static const char *const kept[] = {"centre", "axes", "forward", "order"};
     size_t used = strlen(k->motion);
@@ -49,12 +49,13 @@ static void read_block(coefficients *k, const mps_case *tank, const char *key)
         const size_t length = strcspn(name, ":"), end = strcspn(name, "\n");
         const int32_t degree = forced_degree(name, length);
         for (int i = 0; i < 4; i++)
-            if (strlen(kept[i]) == length && strncmp(kept[i], name, length) == 0 &&
-                used < sizeof k->motion)
+            if (strlen(kept[i]) == length && strncmp(kept[i], name, length) == 0)
                 used += (size_t)snprintf(k->motion + used, sizeof k->motion - used, "%.*s, ",
                                          (int)end, name);
+        if (used >= sizeof k->motion) return false;
         if (degree >= 0 && !k->c->degrees) k->degree[k->degrees++] = degree;
     }
+    return true;
 }
 
 static int refuse(const coefficients *k, const char *what, const char *why)
@@ -74,7 +75,7 @@ static int read_degrees(coefficients *k)
 {
     const char *at = k->c->degrees;
     char name[TEXT_SIZE];
-    while (at && *(at += strspn(at, ", "))) {
+    while (at && *(at += strspn(at, ", "))) { /* without --degrees they are those of the case */
         const size_t length = strcspn(at, ", ");
         const int32_t degree = forced_degree(at, length);
         snprintf(name, sizeof name, "--degrees: '%.*s'", (int)length, at);
@@ -167,7 +168,7 @@ static int run_motion(const coefficients *k, int32_t index, int32_t runs, const 
 {
     char folder[SERIES_PATH];
     choices one = *k->c;
-    if (!series_folder(k->place, index, folder)) return MPS_EXIT_USAGE;
+    series_folder(k->place, index, folder);
     one.set[one.sets++] = motion;
     one.set[one.sets++] = until;
     one.set[one.sets++] = "sensors.liquid={load: momentum}";
@@ -208,8 +209,9 @@ static bool write_tilt(const char *path, const char *name, double T1)
                 TILT_ANGLE * s * s * s * (10 + s * (-15 + 6 * s)));
     }
     fprintf(out, "%.9g,%.9g\n", T1 * (TILT_UNTIL + 1), TILT_ANGLE);
-    const bool good = !ferror(out);
-    return fclose(out) == 0 && good;
+    int failed = ferror(out);
+    failed |= fclose(out);
+    return failed == 0;
 }
 
 /* A text of YAML in single quotes: those within it are doubled. @param out  [twice the text and 3] */
@@ -316,7 +318,7 @@ static int do_all(coefficients *k)
 int verb_coefficients(const choices *c)
 {
     static coefficients k;
-    char dim[8] = "2";
+    char dim[8] = "2", folder[SERIES_PATH];
     int code = MPS_EXIT_FAILED;
     k = (coefficients){.c = c};
     mps_case *tank = cli_case(c, &code);
@@ -325,10 +327,13 @@ int verb_coefficients(const choices *c)
     series_key(tank, "dim", dim, sizeof dim);
     k.dim = dim[0] == '3' ? 3 : 2;
     const bool swept = mps_case_sweep_count(tank) > 0;
-    read_block(&k, tank, "motion");
-    read_block(&k, tank, "body");
+    const bool kept = read_block(&k, tank, "motion") && read_block(&k, tank, "body");
     mps_case_destroy(tank);
+    if (!kept) return refuse(&k, c->file[0], "centre, axes, forward and order are too long");
     if (swept) return refuse(&k, c->file[0], "the case has a sweep; use 'mps sweep'");
+    /* no run has a longer name than the last of all that there can be */
+    if (!series_folder(k.place, FORCED_DEGREES * (FREQUENCIES_MOST + 1) - 1, folder))
+        return refuse(&k, "--out", "is too long");
     code = read_degrees(&k);
     if (code < 0) code = read_frequencies(&k);
     if (code < 0 && c->sets + 5 > CLI_SETS) code = refuse(&k, "--set", "there are too many");

@@ -23,8 +23,8 @@ static int refuse(const choices *c, int code, const char *what, const char *why)
     return code;
 }
 
-/* From the folder of the program, or from where it is installed beside that folder. */
-static bool find_module(char *path, size_t size)
+/* The module, from the folder of the program, or from where it is installed beside that folder. NULL: there is none */
+static FILE *open_module(char *path, size_t size)
 {
     static const char *const places[] = {"", MODULE_FOLDER};
     char from[PATH_SIZE];
@@ -32,24 +32,27 @@ static bool find_module(char *path, size_t size)
     while (length > 0 && from[length - 1] != '/') length--;
     for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
         snprintf(path, size, "%.*s%slibmps_fmu.so", (int)length, from, places[k]);
-        if (access(path, R_OK) == 0) return true;
+        FILE *file = fopen(path, "rb");
+        if (file) return file;
     }
     snprintf(path, size, "libmps_fmu.so");
     errno = ENOENT;
-    return false;
+    return NULL;
 }
 
-static bool read_part(part *p, const char *path)
+/* All of a file, which is closed. @return false: errno says why, 0: there is nothing in it */
+static bool read_part(part *p, FILE *file)
 {
-    FILE *file = fopen(path, "rb");
-    bool good = file && fseek(file, 0, SEEK_END) == 0;
-    const long size = good ? ftell(file) : -1;
-    good = size > 0 && fseek(file, 0, SEEK_SET) == 0;
-    p->data = good ? malloc((size_t)size) : NULL;
-    p->size = good ? (size_t)size : 0;
-    good = p->data && fread(p->data, 1, p->size, file) == p->size;
-    if (file) fclose(file);
-    return good;
+    errno = 0;
+    fseek(file, 0, SEEK_END); /* where that fails the place is 0, as in an empty file */
+    const long size = ftell(file);
+    rewind(file);
+    p->data = size > 0 ? malloc((size_t)size) : NULL;
+    p->size = p->data ? fread(p->data, 1, (size_t)size, file) : 0;
+    const int why = errno;
+    fclose(file);
+    errno = why;
+    return size > 0 && p->size == (size_t)size;
 }
 
 static bool write_part(part *p, void (*write)(FILE *, const fmu_about *), const fmu_about *a)
@@ -57,8 +60,9 @@ static bool write_part(part *p, void (*write)(FILE *, const fmu_about *), const 
     FILE *out = open_memstream(&p->data, &p->size);
     if (!out) return false;
     write(out, a);
-    const bool good = !ferror(out);
-    return fclose(out) == 0 && good;
+    int failed = ferror(out);
+    failed |= fclose(out);
+    return failed == 0;
 }
 
 static void describe(fmu_about *a, const choices *c, const mps_case *tank)
@@ -83,9 +87,8 @@ static bool open_model(const choices *c, mps_case *tank, fmu_model *m)
     char error[ERROR_SIZE] = "";
     if (fmu_model_open(m, tank, c->quiet ? say_nothing : NULL, NULL, error, sizeof error))
         return true;
-    const size_t length = strlen(error);
-    fprintf(stderr, "mps %s: %s%s", c->verb, error,
-            length > 0 && error[length - 1] == '\n' ? "" : "\n");
+    /* messages of the case end their lines, one of the system does not */
+    fprintf(stderr, "mps %s: %s%s", c->verb, error, strchr(error, '\n') ? "" : "\n");
     return false;
 }
 
@@ -129,8 +132,9 @@ static int make(const choices *c, mps_case *tank, const char *path)
         return MPS_EXIT_USAGE;
     }
     describe(&a, c, tank);
-    if (!find_module(module, sizeof module) || !read_part(&p[2], module))
-        code = refuse(c, MPS_EXIT_FAILED, module, strerror(errno));
+    FILE *file = open_module(module, sizeof module);
+    if (!file || !read_part(&p[2], file))
+        code = refuse(c, MPS_EXIT_FAILED, module, errno ? strerror(errno) : "it is empty");
     else if (!write_part(&p[0], fmu_write_description, &a) ||
              !write_part(&p[1], fmu_write_page, &a))
         code = refuse(c, MPS_EXIT_FAILED, path, "no memory");

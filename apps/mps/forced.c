@@ -28,21 +28,12 @@ int32_t forced_degree(const char *name, size_t length)
 
 /* ---- least squares ---- */
 
-bool forced_solve(int n, double *a, double *b)
+/* Normal equations a x = b, [n] x [n] row by row; both are changed, b becomes x. They are positive definite, which needs no exchange of
+ * rows. @return false: they are singular */
+static bool solve(int n, double *a, double *b)
 {
     for (int k = 0; k < n; k++) {
-        int best = k;
-        for (int i = k + 1; i < n; i++)
-            if (fabs(a[i * n + k]) > fabs(a[best * n + k])) best = i;
-        if (!(fabs(a[best * n + k]) > 0)) return false;
-        for (int j = 0; best != k && j < n; j++) {
-            const double kept = a[k * n + j];
-            a[k * n + j] = a[best * n + j];
-            a[best * n + j] = kept;
-        }
-        const double kept = b[k];
-        b[k] = b[best];
-        b[best] = kept;
+        if (!(a[k * n + k] > 0)) return false;
         for (int i = k + 1; i < n; i++) {
             const double f = a[i * n + k] / a[k * n + k];
             for (int j = k; j < n; j++) a[i * n + j] -= f * a[k * n + j];
@@ -81,7 +72,7 @@ static void basis(const record_of *r, double t, double out[TERMS])
 
 static bool counts(const record_of *r, int64_t i)
 {
-    return r->t[i] > r->from && r->t[i] <= r->until;
+    return r->t[i] > r->from; /* and until the last */
 }
 
 /* Coefficients of a column, each step with its duration as its weight. */
@@ -98,7 +89,7 @@ static bool fit(const record_of *r, const double *value, double x[TERMS])
             for (int k = 0; k < n; k++) a[j * n + k] += r->dt[i] * f[j] * f[k];
         }
     }
-    return forced_solve(n, a, x);
+    return solve(n, a, x);
 }
 
 /* ---- one load ---- */
@@ -130,7 +121,7 @@ static int32_t find_rest(const record_of *r, const double *value, const double x
     for (int64_t i = 0; i < r->n; i++) {
         double f[TERMS], left = value[i];
         const int32_t k = (int32_t)((r->t[i] - r->from) / period);
-        if (!counts(r, i) || k < 0 || k >= count) continue;
+        if (!counts(r, i) || k >= count) continue;
         basis(r, r->t[i], f);
         for (int j = 0; j < terms_of(r); j++) left -= x[j] * f[j];
         rest[k].re += 2 / period * r->dt[i] * left * f[1];
@@ -198,7 +189,7 @@ static bool open_record(const choices *c, const char *folder, mps_stats_config *
     snprintf(path, sizeof path, "%s/trace.csv", folder);
     if (mps_stats_config_read(folder, config) != MPS_OK ||
         mps_table_read(config, path, 0, NULL, &rows) != MPS_OK)
-        return refuse(c, folder, error[0] ? error : "it cannot be read");
+        return refuse(c, folder, error);
     *r = (record_of){.rows = rows,
                      .n = mps_table_rows(rows),
                      .t = mps_table_values(rows, -1),
@@ -206,13 +197,6 @@ static bool open_record(const choices *c, const char *folder, mps_stats_config *
     if (r->n > 1 && r->dt) return true;
     mps_table_destroy(rows);
     return refuse(c, folder, "trace.csv has no steps");
-}
-
-double forced_T1(const char *folder)
-{
-    mps_stats_config config;
-    mps_stats_config_init(&config, sizeof config);
-    return mps_stats_config_read(folder, &config) == MPS_OK ? config.period : NAN;
 }
 
 static bool find_loads(record_of *r, int32_t degree, forced *f)

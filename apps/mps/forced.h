@@ -32,10 +32,5 @@ bool forced_read(const choices *c, const char *folder, int32_t degree, double pe
  * @param from, until  [2] of each stretch [s] @return false: there is a message */
 bool forced_tilt_read(const choices *c, const char *folder, const double *from, const double *until,
                       double angle, double C[FORCED_DEGREES]);
-/* T1 of a run [s]; nan: not known. */
-double forced_T1(const char *folder);
-
-/* Solve the normal equations a x = b, [n] x [n] row by row; both are changed. @return false: they are singular */
-bool forced_solve(int n, double *a, double *b);
 
 #endif

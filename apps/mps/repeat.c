@@ -208,17 +208,17 @@ int verb_converge(const choices *c)
     double dp[SPACINGS];
     mps_table *rows[SPACINGS] = {NULL};
     int code = series_of_dp(c, SPACINGS, factor, false, rows, dp);
-    if (rows[0] && rows[1] && rows[2] && !(dp[0] > dp[1] && dp[1] > dp[2])) {
+    const bool all = rows[0] && rows[1] && rows[2];
+    if (all && !(dp[0] > dp[1] && dp[1] > dp[2])) {
         fprintf(stderr,
                 "mps converge: %g, %g and %g m are not three spacings from coarse to fine\n", dp[0],
                 dp[1], dp[2]);
         code = MPS_EXIT_FAILED;
-    } else if (rows[0] && rows[1] && rows[2]) {
+    } else if (all) {
         printf("dp as built: %s, %s, %s\n", quantity(dp[0], "m"), quantity(dp[1], "m"),
                quantity(dp[2], "m"));
         print_converge(rows, dp);
-        const int saved = save_converge(c, rows, dp);
-        if (code == MPS_EXIT_OK) code = saved;
+        code = save_converge(c, rows, dp);
     }
     for (int32_t k = 0; k < SPACINGS; k++) mps_table_destroy(rows[k]);
     return code;

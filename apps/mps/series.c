@@ -90,8 +90,7 @@ static bool same_case(const mps_case *tank, const char *folder)
     mps_case *earlier = NULL;
     snprintf(path, sizeof path, "%s/case.yaml", folder);
     const mps_status status = mps_case_read(path, 0, NULL, &earlier);
-    const char *now = mps_case_text(tank), *then = mps_case_text(earlier);
-    const bool same = status == MPS_OK && now && then && same_lines(now, then);
+    const bool same = status == MPS_OK && same_lines(mps_case_text(tank), mps_case_text(earlier));
     mps_case_destroy(earlier);
     return same;
 }
@@ -140,14 +139,14 @@ mps_table *series_table(const choices *c, const char *folder)
     config.error_size = sizeof error;
     snprintf(path, sizeof path, "%s/probes.csv", folder);
     if (mps_table_read(&config, path, 0, NULL, &rows) == MPS_OK) return rows;
-    fprintf(stderr, "mps %s: %s\n", c->verb, error[0] ? error : path);
+    fprintf(stderr, "mps %s: %s\n", c->verb, error);
     return NULL;
 }
 
 bool series_key(const mps_case *tank, const char *key, char *out, size_t size)
 {
     const size_t length = strlen(key);
-    for (const char *line = mps_case_text(tank); line && *line;) {
+    for (const char *line = mps_case_text(tank); *line;) {
         const size_t end = strcspn(line, "\n");
         if (strncmp(line, key, length) == 0 && strncmp(line + length, ": ", 2) == 0)
             return (size_t)snprintf(out, size, "%.*s", (int)(end - length - 2), line + length + 2) <

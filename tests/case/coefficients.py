@@ -80,6 +80,16 @@ def quick():
     run("coefficients", "box.yaml", *few, "-o", "out", text="is done already")
     os.mkdir("o'clock")  # the tilt of a turn has its table there
     run("coefficients", "box.yaml", "--degrees", "roll", "--period", "0.3 s", "--periods", "1", "-j", "1", "-q", "-o", "o'clock/out", text="; C -")
+    # without a run, here that of the first period, the other one's row stays
+    with open("out/001/trace.csv", encoding="ascii") as whole:
+        kept = whole.read()
+    with open("out/001/trace.csv", "w", encoding="ascii") as cut:
+        cut.write(kept.split("\n")[0] + "\n")
+    said = run("coefficients", "box.yaml", *few, "-o", "out", code=1, text="out/001: trace.csv has no steps")
+    check(said.count(f"\n{rows[0]['omega']:10.5g} ") == 3 and f"\n{rows[1]['omega']:10.5g} " not in said, "a line of each load, none of the run")
+    check(read("out") == rows[:1], "a row without the other run")
+    with open("out/001/trace.csv", "w", encoding="ascii") as whole:
+        whole.write(kept)
     run("coefficients", "box.yaml", *few, "-o", "out", "--amplitude", "3 mm", code=2, text="another case")
 
 

@@ -242,6 +242,18 @@ mkdir swept/sweep.csv
 expect 1 "sweep.csv: Is a directory" "$program" sweep sweep.yaml -o swept -q
 expect 2 "no.yaml" "$program" sweep no.yaml
 expect 0 "order" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
+cp finer/001/probes.csv kept.csv
+sed -i 's/^\([0-9][^,]*\),[^,]*,/\1,nan,/' finer/001/probes.csv # a column without values has no row
+expect 0 "mps converge: finer/converge.csv" "$program" converge small.yaml -o finer --set "dp=25 mm"
+says "finer/003: is done already"
+grep -q '^P ' log && fail "a row of nothing: $(cat log)"
+grep -q '^P,' finer/converge.csv && fail "a row of nothing: $(cat finer/converge.csv)"
+grep -q '^eta,m,' finer/converge.csv || fail "converge.csv: $(cat finer/converge.csv)"
+mv kept.csv finer/001/probes.csv
+rm finer/converge.csv
+mkdir finer/converge.csv
+expect 1 "finer/converge.csv: Is a directory" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
+rmdir finer/converge.csv
 sed -i '/^  "dp": /d' finer/002/summary.json
 expect 1 "are not three spacings from coarse to fine" "$program" converge small.yaml -o finer -q --set "dp=25 mm"
 sed -i 's/"status": "ok"/"status": "failed"/' finer/001/summary.json
@@ -274,6 +286,30 @@ mkdir pair/repeat.csv
 sed -i 's/^title: .*//; s/5 mm/6 mm/' pair/001/case.yaml
 expect 2 "repeat.csv: Is a directory" "$program" repeat small.yaml -n 2 -o pair -q --set "tank={polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m]}"
 says "pair/001: there is a run of another case"
+rmdir pair/repeat.csv
+box=(--set "tank={polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m]}")
+expect 2 "mps repeat: pair/repeat.csv" "$program" repeat small.yaml -n 2 -o pair "${box[@]}"
+says "^varied: .* in all runs, whose cells fill the tank$|^varied: .*\(1 different in 1 runs\)$"
+grep -q '^dp,m,,,,,,,,nan,0\.[0-9]*$' pair/repeat.csv && grep -q '^run.step_factor,,,,,,,,,nan,1.005$' pair/repeat.csv && grep -q '^P,Pa,1,.*,nan,[-0-9.e]*$' pair/repeat.csv ||
+    fail "a run of two: $(cat pair/repeat.csv)"
+# a column without values has no row
+sed -i 's/^\([0-9][^,]*\),[^,]*,/\1,nan,/' pair/002/probes.csv
+head -1 pair/002/probes.csv | grep -q '^t\[s\],P\[Pa\],' || fail "P is not the first column: $(head -1 pair/002/probes.csv)"
+expect 2 "eta " "$program" repeat small.yaml -n 2 -o pair -q "${box[@]}"
+grep -q '^P ' log && fail "a row of nothing: $(cat log)"
+grep -q '^P,' pair/repeat.csv && fail "a row of nothing: $(cat pair/repeat.csv)"
+grep -q '^eta,m,1,' pair/repeat.csv || fail "repeat.csv: $(cat pair/repeat.csv)"
+"$program" repeat small.yaml -n 2 --set "run.until=100000 s" -o ended > log 2>&1 & # interrupted: no other run, no table
+pid=$!
+for ((k = 0; k < 600; k++)); do
+    [ "$(wc -l 2> /dev/null < ended/001/probes.csv)" -gt 20 ] 2> /dev/null && break
+    sleep 0.05
+done
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] || fail "repeat interrupted: $(tail -3 log)"
+[ -e ended/002 ] && fail "an interrupted series went on"
+[ -e ended/repeat.csv ] && fail "a table of an interrupted run"
 
 # ---- ranks: of one process that plays one of two
 mkdir bin
@@ -325,7 +361,78 @@ rm -r coefficients/003 coefficients/tilt_roll.csv
 mkdir coefficients/tilt_roll.csv
 expect 2 "coefficients/tilt_roll.csv: Is a directory" "$program" "${series[@]}"
 rm -r coefficients
+# what one folder holds, of a series that is done: whole tables again, but for that
+spoiled() { # wanted exit code, wanted text, file, program of sed
+    rm -rf coefficients
+    cp -r kept_coefficients coefficients
+    sed -i "$4" "coefficients/$3"
+    expect "$1" "$2" "$program" "${series[@]}"
+}
+column() { head -1 coefficients/coefficients.csv | tr , '\n' | grep -c "^$1"; }
+spoiled 1 "coefficients/001: trace.csv has no steps" 001/trace.csv '1s/,dt/,other/'
+spoiled 1 "coefficients/001: no harmonic of the motion can be fitted" 001/trace.csv '5,$d' # shorter than what is measured
+spoiled 1 "coefficients/001: no harmonic of the motion can be fitted" 001/trace.csv '3,$s/^\([^,]*\),[^,]*/\1,0/' # steps without a duration
+spoiled 1 "coefficients/001: no harmonic of the motion can be fitted" 001/summary.json '/"motion omega"/d'
+spoiled 1 "summary.json" 001/summary.json '1s/{/{ broken/'
+says "^mps coefficients: coefficients/001: "
+[ "$(column 'A_surge_surge\[')" -eq 1 ] && grep -q ',nan,nan,nan,nan,nan,0,' coefficients/coefficients.csv || fail "coefficients of one motion of two: $(cat coefficients/coefficients.csv)"
+spoiled 0 "" 001/trace.csv '1s/walls_surge/other/'
+awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^A_surge_surge_walls/) j = i; next } { exit !($j == "nan") }' coefficients/coefficients.csv ||
+    fail "A by walls that are not there: $(cat coefficients/coefficients.csv)"
+spoiled 1 "coefficients/003: trace.csv has no steps" 003/trace.csv '2,$d'
+spoiled 2 "coefficients/003 failed, exit code 2" 003/case.yaml 's/^dp: .*/dp: 81 mm/'
+says "coefficients/003: there is a run of another case"
+rm -r coefficients
 mv kept_coefficients coefficients
+for file in csv dat; do
+    mv coefficients/coefficients.$file kept.$file
+    mkdir coefficients/coefficients.$file
+    expect 1 "coefficients.$file: Is a directory" "$program" "${series[@]}"
+    rmdir coefficients/coefficients.$file
+    ln -s /dev/full coefficients/coefficients.$file
+    expect 1 "coefficients.$file: No space left" "$program" "${series[@]}"
+    rm coefficients/coefficients.$file
+    mv kept.$file coefficients/coefficients.$file
+done
+# refused before there is a run
+expect 2 "use 'mps sweep'" "$program" coefficients forced.yaml --set "sweep={motion.surge.period: 1 2 T1}" -o none
+expect 2 "no.yaml" "$program" coefficients no.yaml -o none
+expect 2 "--set: there are too many" "$program" coefficients forced.yaml "${many[@]:0:120}" -o none
+expect 2 "mps coefficients: --out: is too long" "$program" coefficients forced.yaml -o "$name"
+[ -e none ] && fail "a refused series made a folder"
+# motions and ramps of series that the folder is not of
+of_another() { # text, arguments of coefficients
+    local text=$1
+    shift
+    expect 2 "$text" "$program" coefficients forced.yaml -o coefficients "$@"
+    says "coefficients/001: there is a run of another case"
+    says "coefficients/001 failed, exit code 2"
+    [ "$(grep -c 'load .* by' log)" -eq 0 ] || fail "a table without a run: $(cat log)"
+}
+of_another "run 1 of 1: motion={centre: 0.5 0 m, surge: {slope: 0.25 deg, period: 1.6 T1, ramp: 4}}" --period "1.6 T1"
+of_another "surge: {slope: 0.25 deg, period: 1 T1, ramp: 12}}" --period "1 T1"
+of_another "surge: {slope: 0.25 deg, period: 0.5 s, ramp: 6}}" --period "0.5 s"
+of_another "heave: {slope: 0.01 rad, omega: 9 rad/s, ramp: 1}}" --degrees heave --omega "9 rad/s" --amplitude "0.01 rad" --periods 1
+# in 3-D, with axes of its own; a tilt takes the longest period where no T1 is known
+expect 0 "" "$program" coefficients forced.yaml --degrees roll --omega "20 rad/s" --periods 1 -o solid -q --set dim=3 --set "tank={size: 0.3 0.3 0.3 m}" --set "gravity=0 m/s2" \
+    --set "motion={centre: 0.15 0 0.15 m, axes: 'x forward, y port, z up', surge: {amplitude: 1 mm, period: 1 s}}" --set "dp=100 mm"
+head -1 solid/coefficients.csv | grep -qF ',A_roll_roll[kg m2],' || fail "units in 3-D: $(cat solid/coefficients.csv)"
+grep -q '^  until: 0.942477796 s' solid/001/case.yaml || fail "three periods at 20 rad/s: $(grep until solid/001/case.yaml)"
+grep -q '^  until: 5.02654825 s' solid/002/case.yaml && grep -q '^  axes: "x forward, y port, z up"' solid/002/case.yaml || fail "a tilt in 3-D: $(cat solid/002/case.yaml)"
+# interrupted: no other run, no tables
+"$program" coefficients forced.yaml --degrees "surge roll" --period "2000 T1" --periods 2 -o halted > log 2>&1 &
+pid=$!
+for ((k = 0; k < 600; k++)); do
+    [ -e halted/001/trace.csv ] && break
+    sleep 0.05
+done
+sleep 0.5
+kill -INT $pid
+wait $pid
+[ $? -eq 130 ] || fail "coefficients interrupted: $(tail -3 log)"
+says "^mps coefficients: halted/001 was interrupted, exit code 130$"
+[ -e halted/002 ] && fail "an interrupted series went on"
+[ -e halted/coefficients.csv ] && fail "a table of an interrupted run"
 expect 0 "" "$program" coefficients forced.yaml --degrees sway --omega "200 deg/s" --amplitude "9 mm" --periods 3 -o by_omega -q
 grep -q '^3\.4906' by_omega/coefficients.csv || fail "200 deg/s: $(cat by_omega/coefficients.csv)"
 
