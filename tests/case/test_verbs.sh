@@ -399,6 +399,7 @@ expect 2 "use 'mps sweep'" "$program" coefficients forced.yaml --set "sweep={mot
 expect 2 "no.yaml" "$program" coefficients no.yaml -o none
 expect 2 "--set: there are too many" "$program" coefficients forced.yaml "${many[@]:0:120}" -o none
 expect 2 "mps coefficients: --out: is too long" "$program" coefficients forced.yaml -o "$name"
+expect 2 "forced.yaml: centre, axes, forward and order are too long" "$program" coefficients forced.yaml --set "motion.centre=0.5$(printf ' %.0s' {1..1100})0 m" -o none
 [ -e none ] && fail "a refused series made a folder"
 # motions and ramps of series that the folder is not of
 of_another() { # text, arguments of coefficients
