@@ -171,7 +171,10 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
     const int k = room_of(s, from);
     assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
-    if (s->downloads == s->loses_at) return 1;
+    if (s->downloads == s->loses_at) {
+        memset(to, 0x55, bytes); /* what a copy that failed has left is anything */
+        return 1;
+    }
     protect(s, k, PROT_READ);
     memcpy(to, from, bytes);
     protect(s, k, PROT_NONE);

@@ -32,10 +32,42 @@ static void rows_of_the_host_between_steps(void **state)
     }
 }
 
+/* Whichever copy fails, and whatever it leaves: the next step has the candidates of the search before, and the host their rows. */
+static void copies_that_fail(void **state)
+{
+    mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
+    const mps_neighbours *l = &sim->world.lists.neighbours;
+    int64_t copies = 0, failed = 0, torn = 0;
+    shadow s;
+    (void)state;
+    shadow_attach(&s, sim);
+    for (int64_t k = 0; k < 120; k++) {
+        const int64_t before = s.downloads;
+        ASSERT_OK(host, mps_step(host, 0.001, NULL));
+        ASSERT_OK(sim, mps_step(sim, 0.001, NULL));
+        same(host, sim);
+        copies = s.downloads - before;
+        s.loses_at = s.downloads + 1 + k % copies;
+        const mps_status status = mps_step(sim, 0.001, NULL);
+        s.loses_at = 0;
+        if (status == MPS_OK) { /* with fewer of them */
+            ASSERT_OK(host, mps_step(host, 0.001, NULL));
+            continue;
+        }
+        assert_non_null(strstr(mps_sim_error(sim), "device 'shadow' failed"));
+        failed++;
+        torn += l->torn && l->valid;
+    }
+    assert_true(failed > 80 && torn > 5);
+    mps_sim_destroy(host);
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(rows_of_the_host_between_steps),
+        cmocka_unit_test(copies_that_fail),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -46,7 +46,8 @@ typedef struct mps__twins {
     bool step;            /* a step has begun, */
     bool open;            /* and loops may run on the device */
     int64_t listed;       /* the search whose lists have twins; -1: none */
-    bool lost; /* the step that ended last: candidates that it found did not come to the host */
+    bool lost; /* the step that ended last: candidates that it found did not come to the host, */
+    bool torn; /* or lists of the host are half those of the device, as a copy has failed */
     int64_t changes; /* those of the particles when a step ended; fields have their twins since */
     int32_t place;   /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
