@@ -37,7 +37,7 @@ static void copies_that_fail(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
     const mps_neighbours *l = &sim->world.lists.neighbours;
-    int64_t copies = 0, failed = 0, torn = 0;
+    int64_t failed = 0, torn = 0;
     shadow s;
     (void)state;
     shadow_attach(&s, sim);
@@ -46,8 +46,8 @@ static void copies_that_fail(void **state)
         ASSERT_OK(host, mps_step(host, 0.001, NULL));
         ASSERT_OK(sim, mps_step(sim, 0.001, NULL));
         same(host, sim);
-        copies = s.downloads - before;
-        s.loses_at = s.downloads + 1 + k % copies;
+        const int64_t copies = s.downloads - before;
+        s.loses_at = s.downloads + 1 + (copies > 0 ? k % copies : 0);
         const mps_status status = mps_step(sim, 0.001, NULL);
         s.loses_at = 0;
         if (status == MPS_OK) { /* with fewer of them */

@@ -88,8 +88,8 @@ static inline mps__device *mps__twins_device(mps__twins *t)
 {
     return t->open ? &t->device : NULL;
 }
-/* It is over, wherever it has ended: all fields come to the host. Lists of the search do not: the host's have the same candidates, and are
- * parted again where they are needed. MPS_E_PLUGIN: the fields did not. */
+/* It is over, wherever it has ended: all fields come to the host, and the lists of a search that was done in it. Others do not: the host's have
+ * the same candidates, and are parted again where they are needed. MPS_E_PLUGIN: they did not come. */
 mps_status mps__twins_close(mps__twins *t);
 
 /* ---- where loops run ---- */
