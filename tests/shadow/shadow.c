@@ -101,6 +101,7 @@ static void *room(void *self, uint64_t bytes)
 {
     shadow *s = self;
     int k = 0;
+    s->why = NULL;
     if (s->refuses) return NULL;
     if (!s->arena)
         s->arena = s->arena_end = mmap(NULL, ARENA, PROT_NONE,
@@ -153,6 +154,12 @@ static void protect_all(const shadow *s, int access)
 
 /* ---- copies ---- */
 
+static int fails(shadow *s)
+{
+    s->why = "as the test wants it";
+    return 1;
+}
+
 static int upload(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
@@ -171,7 +178,10 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
     const int k = room_of(s, from);
     assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
-    if (s->downloads == s->loses_at) return 1;
+    if (s->downloads == s->loses_at) {
+        memset(to, 0x55, bytes); /* what a copy that failed has left is anything */
+        return fails(s);
+    }
     protect(s, k, PROT_READ);
     memcpy(to, from, bytes);
     protect(s, k, PROT_NONE);
@@ -246,7 +256,7 @@ static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
 static int rows(void *self, const mps_launch *l)
 {
     shadow *s = self;
-    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return 1;
+    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return fails(s);
     run(s, l, NULL, NULL);
     return 0;
 }
@@ -265,8 +275,8 @@ static int wait_for(void *self)
 
 static const char *failure(void *self)
 {
-    (void)self;
-    return "as the test wants it";
+    const shadow *s = self;
+    return s->why;
 }
 
 void shadow_attach(shadow *s, mps_sim *sim)

@@ -288,10 +288,10 @@ static void costs(void **state)
         i.waits -= WAITS * step.ppe_iterations;
         assert_true(step.ppe_iterations > 5);
         const double n = (double)sim->world.particles.n;
-        print_message(
-            "%s in %d-D: %lld launches, %lld waits, %.0f bytes up, %.0f down a particle\n",
-            c->preset, (int)c->dim, (long long)i.launches, (long long)i.waits,
-            (double)i.bytes_up / n, (double)i.bytes_down / n);
+        print_message("%s in %d-D, %.0f particles: %lld launches, %lld waits, %.0f bytes up, %.0f "
+                      "down a particle\n",
+                      c->preset, (int)c->dim, n, (long long)i.launches, (long long)i.waits,
+                      (double)i.bytes_up / n, (double)i.bytes_down / n);
         assert_in("launches", c, (double)i.launches, (double)c->launches[0],
                   (double)c->launches[1]);
         assert_in("waits", c, (double)i.waits, (double)c->waits[0], (double)c->waits[1]);

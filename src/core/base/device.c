@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Calls of a device: what is checked, counted, and what a failure does. */
 #include "device.h"
+#include <stdio.h>
 #include <string.h>
 
 void mps__device_init(mps__device *d, mps__context *context)
@@ -66,12 +67,19 @@ mps__device *mps__device_of(const mps_parallel *p)
 
 /* ---- failures ---- */
 
+/* What a call of the device has returned. Later calls, of memory, may forget why it has failed. */
+static void note(mps__device *d, int failed)
+{
+    if (!failed) return;
+    const char *why = d->ops.failure(d->ops.self);
+    d->failed = true;
+    snprintf(d->why, sizeof d->why, "%s", why ? why : "it does not say why");
+}
+
 mps_status mps__device_status(const mps__device *d)
 {
     if (!d->failed) return MPS_OK;
-    const char *why = d->ops.failure(d->ops.self);
-    return mps__fail(d->context, MPS_E_PLUGIN, "device '%s' failed: %.300s", d->ops.name,
-                     why ? why : "it does not say why");
+    return mps__fail(d->context, MPS_E_PLUGIN, "device '%s' failed: %s", d->ops.name, d->why);
 }
 
 /* ---- memory ---- */
@@ -141,7 +149,7 @@ mps_allocator mps__device_allocator(mps__device *d)
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes)
 {
     if (d->failed || bytes == 0) return;
-    d->failed = d->ops.upload(d->ops.self, to, from, bytes) != 0;
+    note(d, d->ops.upload(d->ops.self, to, from, bytes));
     d->info.uploads++;
     d->info.bytes_up += (int64_t)bytes;
 }
@@ -149,7 +157,7 @@ void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes
 void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes)
 {
     if (d->failed || bytes == 0) return;
-    d->failed = d->ops.download(d->ops.self, to, from, bytes) != 0;
+    note(d, d->ops.download(d->ops.self, to, from, bytes));
     d->info.downloads++;
     d->info.waits++;
     d->info.bytes_down += (int64_t)bytes;
@@ -158,14 +166,14 @@ void mps__device_download(mps__device *d, void *to, const void *from, size_t byt
 void mps__device_clear(mps__device *d, void *to, size_t bytes)
 {
     if (d->failed || bytes == 0) return;
-    d->failed = d->ops.clear(d->ops.self, to, bytes) != 0;
+    note(d, d->ops.clear(d->ops.self, to, bytes));
     d->info.launches++;
 }
 
 void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes)
 {
     if (d->failed || bytes == 0) return;
-    d->failed = d->ops.copy(d->ops.self, to, from, bytes) != 0;
+    note(d, d->ops.copy(d->ops.self, to, from, bytes));
     d->info.launches++;
 }
 
@@ -190,10 +198,10 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
     launch->file = name_of(launch->file);
     d->info.launches++;
     if (launch->sums == 0 && launch->maxima == 0) {
-        d->failed = d->ops.rows(d->ops.self, launch) != 0;
+        note(d, d->ops.rows(d->ops.self, launch));
         return;
     }
-    d->failed = d->ops.values(d->ops.self, launch, sums, maxima) != 0;
+    note(d, d->ops.values(d->ops.self, launch, sums, maxima));
     d->info.waits++;
     d->info.bytes_down += (int64_t)((size_t)launch->sums * sizeof *sums +
                                     (size_t)launch->maxima * sizeof *maxima);

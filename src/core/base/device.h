@@ -20,7 +20,8 @@ typedef struct mps__device {
     mps_device_ops ops;    /* name NULL: there is none */
     mps_device_info info;  /* of the step in progress */
     mps_parallel parallel; /* while calls run on the device */
-    bool failed;           /* a call has: nothing is asked of the device until the next step */
+    bool failed;   /* a call has: no loop or copy is asked of the device until the next step */
+    char why[301]; /* text of that failure */
     struct {
         void *room;
         size_t bytes;

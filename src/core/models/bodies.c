@@ -182,7 +182,7 @@ static int find_there(mps_stage *s, int32_t most, const int32_t *role, int32_t *
     if (!failed) {
         mps__twins_lists_ready(&h->twins);
         mps__device_download(&h->twins.device, own_role, role, bytes);
-        failed = find_free(s, most, own_role, own_body);
+        failed = h->twins.device.failed || find_free(s, most, own_role, own_body);
         mps__device_upload(&h->twins.device, body, own_body, bytes);
     }
     h->scratch_used -= 2;

@@ -183,6 +183,7 @@ static mps_status open_constants(mps__twins *t)
 void mps__twins_begin(mps__twins *t)
 {
     t->step = mps__device_there(&t->device);
+    t->lost = t->torn = false;
     if (t->step) mps__device_begin(&t->device);
 }
 
@@ -445,8 +446,10 @@ void mps__twins_fields_ready(mps__twins *t)
 
 static void blocks_ready(mps__twins *t, int32_t end)
 {
+    const bool before = t->device.failed;
     for (int32_t k = 0; t->step && k < end; k++)
         copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
+    t->torn = t->torn || t->device.failed != before;
 }
 
 void mps__twins_lists_ready(mps__twins *t)

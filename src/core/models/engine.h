@@ -46,7 +46,8 @@ typedef struct mps__twins {
     bool step;            /* a step has begun, */
     bool open;            /* and loops may run on the device */
     int64_t listed;       /* the search whose lists have twins; -1: none */
-    bool lost; /* the step that ended last: candidates that it found did not come to the host */
+    bool lost; /* the step that ended last: candidates that it found did not come to the host, */
+    bool torn; /* or lists of the host are half those of the device, as a copy has failed */
     int64_t changes; /* those of the particles when a step ended; fields have their twins since */
     int32_t place;   /* of loops now */
     mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
@@ -87,8 +88,8 @@ static inline mps__device *mps__twins_device(mps__twins *t)
 {
     return t->open ? &t->device : NULL;
 }
-/* It is over, wherever it has ended: all fields come to the host. Lists of the search do not: the host's have the same candidates, and are
- * parted again where they are needed. MPS_E_PLUGIN: the fields did not. */
+/* It is over, wherever it has ended: all fields come to the host, and the lists of a search that was done in it. Others do not: the host's have
+ * the same candidates, and are parted again where they are needed. MPS_E_PLUGIN: they did not come. */
 mps_status mps__twins_close(mps__twins *t);
 
 /* ---- where loops run ---- */

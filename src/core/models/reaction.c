@@ -90,7 +90,7 @@ MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, 
 }
 MPS_ROWS(place_rows, place_row, place_fields)
 
-/* Which places occur. @return non-zero: no memory */
+/* Which places occur. @return non-zero: no memory, or a device has failed */
 static int note_used(mps_stage *s, mps__host *h, const int32_t *place, bool *used)
 {
     const int64_t n = s->view->n;
@@ -103,7 +103,7 @@ static int note_used(mps_stage *s, mps__host *h, const int32_t *place, bool *use
             h->scratch_used--;
         }
         mps__host_end_serial(s, view);
-        place = own;
+        place = h->twins.device.failed ? NULL : own;
     }
     for (int64_t i = 0; place && i < n; i++) used[place[i]] = true;
     return !place;

@@ -267,9 +267,12 @@ static int chain_there(mps_stage *s, const mps_grid *grid, int32_t *first, int32
     const mps_view *there = mps__host_begin_serial(s);
     int32_t *own_first = mps_stage_scratch_integers(s, s->view->n),
             *own_next = mps_stage_scratch_integers(s, s->view->n);
-    const int failed = !own_first || !own_next;
+    int failed = !own_first || !own_next;
     if (!failed) {
         mps__twins_ready(&h->twins, MPS__POSITION, MPS__ON_HOST);
+        failed = h->twins.device.failed;
+    }
+    if (!failed) {
         chain_rows(s->view, grid, own_first, own_next);
         mps__device_upload(&h->twins.device, first, own_first, bytes);
         mps__device_upload(&h->twins.device, next, own_next, bytes);

@@ -378,7 +378,7 @@ static mps_status search_rows(mps_neighbours *l, bool sorted)
 mps_status mps__neighbours_begin(mps_neighbours *l, int64_t n, const double *x, double re_near,
                                  double re_far)
 {
-    l->sorted = l->valid = false;
+    l->sorted = l->valid = l->torn = false;
     l->searches++;
     MPS__TRY(reserve(l, n));
     if (re_near < re_far)

@@ -45,7 +45,8 @@ struct mps_neighbours {
     int32_t *order;                    /* [2 n] likewise */
     mps__scratch own_scratch, *shared; /* where these two are: its own, or one shared with others */
     mps__cells cells;                  /* of the last order */
-    bool valid;                        /* candidates belong to the present order */
+    bool valid;                        /* candidates belong to the present order, */
+    bool torn;                         /* but what col and the rows hold is not them any more */
     bool sorted;     /* the store was just sorted along the keys: the next search needs no order */
     int64_t longest; /* candidates of one row that is too long for the stack, at most; else 0 */
     double *scratch; /* room to work on such rows, for each part of the particles */

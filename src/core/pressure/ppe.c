@@ -170,7 +170,7 @@ static int64_t last_of(const mps__ppe *e, const int64_t *sums, int64_t count)
         mps__device_download(e->device, &last, sums + count - 1, sizeof last);
     else if (count > 0)
         last = sums[count - 1];
-    return last;
+    return e->device && e->device->failed ? 0 : last;
 }
 
 static mps_status find_unknowns(mps__ppe *e, const mps_view *s, assembly *a)

@@ -159,11 +159,14 @@ static mps_status name_coupling(const mps__step *q, mps_status status)
                      w->context->error, jump);
 }
 
-/* Nothing is at the device any more that the host needs. What a search found there may be lost: the next step finds it again. */
+/* Nothing is at the device any more that the host needs. What a search found there may be lost: the next step finds it again, where it was
+ * found if that was in an earlier step. */
 static mps_status leave_device(mps__world *w)
 {
+    const mps__twins *t = &w->host.twins;
     const mps_status status = mps__twins_close(&w->host.twins);
-    if (status < 0 && w->host.twins.lost) w->lists.neighbours.valid = false;
+    if (status < 0 && t->lost) w->lists.neighbours.valid = false;
+    if (status < 0 && t->torn) w->lists.neighbours.torn = true;
     return status;
 }
 

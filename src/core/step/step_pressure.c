@@ -245,6 +245,7 @@ static mps_status solve_here(mps_stage *s)
     mps__twins_ready(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
     mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
     mps__twins_ready(t, MPS__PRESSURE_DENSITY, MPS__ON_HOST);
+    if (status == MPS_OK) status = mps__device_status(&t->device);
     if (status == MPS_OK) status = solve_equation(s, &q->terms);
     mps__twins_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
     mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);

@@ -265,13 +265,15 @@ static mps_status search(mps__world *w, bool sorted)
     return status;
 }
 
-/* Whether the candidates of the last search still hold, but models or the solver want others: rows of dummies or none, more ghosts. */
+/* Whether the candidates of the last search still hold, but models or the solver want others: rows of dummies or none, more ghosts; or a device
+ * has failed that had them. */
 static bool wants_other_lists(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     return l->valid && w->lists.linked == w->particles.solids &&
            w->lists.listed == w->particles.generation &&
-           (l->dummy_rows != mps__models_dummy_rows(&w->models) || mps__world_wants_ghosts(w));
+           (l->torn || l->dummy_rows != mps__models_dummy_rows(&w->models) ||
+            mps__world_wants_ghosts(w));
 }
 
 static mps_status note_models(mps__world *w)

@@ -194,7 +194,7 @@ mps_status mps__world_rows(mps__world *w)
 {
     mps__plates_look(w);
     if (mps__world_rows_there(w)) return rows_there(w);
-    w->host.twins.listed = -1;
+    mps__twins_rows_drop(&w->host.twins); /* older than these from now on */
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
     return MPS_OK;
 }
