@@ -18,6 +18,14 @@ typedef struct head {
     char text[HEAD + 1];
 } head;
 
+/* Whether the beginning holds text: no byte that only binary files have. */
+static bool is_text(const head *h)
+{
+    for (size_t i = 0; i < h->count; i++)
+        if ((unsigned char)h->text[i] < ' ' && !memchr("\t\n\r\f", h->text[i], 4)) return false;
+    return true;
+}
+
 /* ---- kinds of files ---- */
 
 /* A checkpoint: 16 bytes of head, then parts with a title, bytes of an element, checksum, number of elements. */
@@ -99,6 +107,7 @@ static bool tell_surface(const head *h)
 
 static bool tell_case(const head *h)
 {
+    if (!is_text(h)) return false;
     if (strncmp(h->text, "mps:", 4) != 0 && !strstr(h->text, "\nmps:")) return false;
     const char *title = strstr(h->text, "\ntitle:");
     printf("case%s%.*s; 'mps check' tells what it means\n", title ? ": " : "",
@@ -108,7 +117,8 @@ static bool tell_case(const head *h)
 
 static bool tell_summary(const head *h)
 {
-    if (h->text[0] != '{') return false;
+    const char *first = h->text + 1 + strspn(h->text + (h->count > 0), " \t\r\n");
+    if (!is_text(h) || h->text[0] != '{' || (*first != '"' && *first != '}')) return false;
     printf("summary of a run or other JSON, %lld bytes\n", h->size);
     return true;
 }
@@ -119,9 +129,7 @@ static bool tell_table(const head *h)
     char line[65536], last[64] = "", first[64] = "";
     long long rows = 0;
     const size_t length = strcspn(h->text, "\n");
-    for (size_t i = 0; i < length; i++)
-        if ((unsigned char)h->text[i] < ' ' && h->text[i] != '\t' && h->text[i] != '\r')
-            return false;
+    if (!is_text(h)) return false;
     if (!memchr(h->text, ',', length) || length == h->count) return false;
     printf("table\n");
     for (const char *at = h->text; at < h->text + length; at += strcspn(at, ",\n") + 1)

@@ -199,6 +199,10 @@ for what in "case:tank.yaml" "table:run/probes.csv" "frame of particles:run/fram
 done
 head -c 3000 /dev/urandom > noise
 expect 2 "is no file of mps" "$program" info noise
+printf '{' | cat - noise > brace # binary that begins as JSON, and text that is none
+expect 2 "is no file of mps" "$program" info brace
+printf '{ not json\n' > brace
+expect 2 "is no file of mps" "$program" info brace
 expect 2 "No such file" "$program" info nothing
 expect 0 "report.html" "$program" info run
 expect 2 "without outputs of a run" "$program" info taken
