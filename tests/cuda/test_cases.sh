@@ -1,0 +1,56 @@
+#!/bin/bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Each case gives the same bytes of probes.csv, frames and checkpoint on the host and on a GPU, and a checkpoint of one goes on on the other.
+# The GPU is the stand-in for the driver, which runs the kernels by OpenCL. 77: no OpenCL runs here.
+# usage: test_cases.sh PROGRAM CASES FOLDER_OF_STANDIN FOLDER_OF_PLUGIN KERNELS [NAME ..]
+program=$1 cases=$2 standin=$3 plugin=$4 kernels=$5
+shift 5
+table=$(realpath "$(dirname "$0")/../case/short_runs")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export LC_ALL=C
+failed=0 runs=0
+
+fail() {
+    echo "FAILED: $*: $(tail -3 log)"
+    failed=1
+}
+gpu() { LD_LIBRARY_PATH=$standin:$plugin STANDIN_KERNELS=$kernels "$program" "$@" --device cuda; }
+host() { "$program" "$@"; }
+
+# Half of a run here, the other half there.
+halves() { # where, where, folder, case, time, options..
+    local first=$1 second=$2 folder=$3 case=$4 t=$5
+    shift 5
+    $first run "$case" -o "$folder" -j 1 -q --set "run.until=$(awk "BEGIN {print $t / 2}") s" --set "run.checkpoint=1000 s" --set output.frames=2 \
+        --set "output.page=0 MB" "$@" > log 2>&1 || { fail "$case: first half: $first"; return 1; }
+    $second resume "$folder" -j 1 -q --set "run.until=$t s" > log 2>&1 || { fail "$case: second half: $second"; return 1; }
+}
+tested() { # name, case, time, options..
+    local name=$1 file folder
+    shift
+    halves host host "$name.host" "$@" || return
+    [ -s "$name.host/checkpoint.mps" ] || fail "$name: no checkpoint"
+    [ "$(wc -l < "$name.host/probes.csv")" -ge 3 ] || fail "$name: $(wc -l < "$name.host/probes.csv") rows"
+    for folder in "$name.gpu_host" "$name.host_gpu"; do
+        case $folder in *gpu_host) halves gpu host "$folder" "$@" ;; *) halves host gpu "$folder" "$@" ;; esac || continue
+        for file in probes.csv momentum.csv checkpoint.mps frames; do
+            diff -rq "$name.host/$file" "$folder/$file" > log 2>&1 || fail "$name"
+        done
+        runs=$((runs + 1))
+    done
+    rm -rf "$name".*
+}
+
+printf 'mps: 1\ndp: 50 mm\ntank: {size: 0.5 0.3 m}\nfill: [{water: {depth: 0.1 m}}]\nrun: {until: 0.01 s}\noutput: {frames: 0, page: 0 MB}\n' > still.yaml
+gpu run still.yaml -o still -q > log 2>&1 || { grep -q "driver of NVIDIA does not start" log && { cat log; exit 77; }; fail "a run on the stand-in"; exit 1; }
+grep -q '"device": "cuda"' still/summary.json || fail "the summary does not tell the device"
+
+while read -r name t; do
+    [ $# -gt 0 ] && [[ " $* " != *" $name "* ]] && continue
+    tested "$name" "$cases/$name.yaml" "$t"
+done < "$table"
+[ $# -gt 0 ] || tested dam_break_3d "$cases/dam_break.yaml" 0.1 --set dim=3 --set "dp=50 mm"
+[ $failed -eq 0 ] && echo "$runs runs of two halves, one on the host, one on the GPU: the same bytes"
+exit $failed
