@@ -102,6 +102,47 @@ static void motion_text(const coefficients *k, int32_t degree, const char *frequ
              (int)ramp);
 }
 
+/* Whether the reader finds the amplitude of a motion at fault; other messages are left to the runs, whose case they are about. */
+static bool amplitude_fails(const mps_case *c, int32_t degree)
+{
+    char size[64], slope[64];
+    mps_case_message m = {.struct_size = sizeof m};
+    snprintf(size, sizeof size, "motion.%s.amplitude", forced_names[degree]);
+    snprintf(slope, sizeof slope, "motion.%s.slope", forced_names[degree]);
+    for (int32_t i = 0; i < mps_case_message_count(c); i++)
+        if (mps_case_message_get(c, i, &m) == MPS_OK && !m.warning &&
+            (strstr(m.text, size) || strstr(m.text, slope)))
+            return true;
+    return false;
+}
+
+/* The amplitude in each degree that moves, before the first run. @return -1, or the exit code */
+static int check_amplitude(const coefficients *k)
+{
+    static const char *const allowed[2] = {
+        "it must be a length or an angle, and not 0, e.g. '2 mm' or '0.25 deg'",
+        "it must be an angle, and not 0, e.g. '0.25 deg'"};
+    const char *size = k->c->amplitude;
+    char motion[MOTION_SIZE], what[MOTION_SIZE];
+    if (!size) return -1;
+    for (int32_t at = 0; at < k->degrees; at++) {
+        const int32_t degree = k->degree[at];
+        choices one = *k->c;
+        mps_case *tank = NULL;
+        motion_text(k, degree, "period: 1 s", 1, motion);
+        one.set[one.sets++] = motion;
+        const mps_status status = mps_case_read(one.file[0], one.sets, one.set, &tank);
+        /* one value, and not more of the motion behind it */
+        const bool bad = size[strcspn(size, ",:#{}[]\"'\n")] || !(fabs(strtod(size, NULL)) > 0) ||
+                         amplitude_fails(tank, degree);
+        mps_case_destroy(tank);
+        if (status == MPS_E_NOMEM) return no_memory(k);
+        snprintf(what, sizeof what, "--amplitude: %s: '%.200s'", forced_names[degree], size);
+        if (bad) return refuse(k, what, allowed[degree >= ROLL]);
+    }
+    return -1;
+}
+
 /* Frequencies, by a sweep that the reader checks. @return -1, or the exit code */
 static int read_frequencies(coefficients *k)
 {
@@ -335,7 +376,8 @@ int verb_coefficients(const choices *c)
     if (!series_folder(k.place, FORCED_DEGREES * (FREQUENCIES_MOST + 1) - 1, folder))
         return refuse(&k, "--out", "is too long");
     code = read_degrees(&k);
-    if (code < 0) code = read_frequencies(&k);
     if (code < 0 && c->sets + 5 > CLI_SETS) code = refuse(&k, "--set", "there are too many");
+    if (code < 0) code = check_amplitude(&k);
+    if (code < 0) code = read_frequencies(&k);
     return code < 0 ? do_all(&k) : code;
 }

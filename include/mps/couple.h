@@ -134,9 +134,12 @@ MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
  *  a cell where two walls of a tank meet, an eighth where three meet; three quarters at an edge of
  *  a block, seven eighths at its corner), a_h the acceleration of the wall along its normal and of
  *  the liquid beside it along the face. The moment likewise, about the place that the centre has at
- *  the beginning of the step. F contains all that the liquid exchanges with solids: pressure,
- *  collisions, friction. It is the mean over this one step. Force probes (MPS_PROBE_FORCE) show
- *  pressures on walls instead, by default averaged over past steps: they must not drive a body.
+ *  the beginning of the step. In a wave its part by the weight errs by a share of about dp over the
+ *  size of the tank: half cells at the ends grow with the wave, whose liquid is in particles that
+ *  came, and those on the floor do not move with it. F contains all that the liquid exchanges with
+ *  solids: pressure, collisions, friction. It is the mean over this one step. Force probes
+ *  (MPS_PROBE_FORCE) show pressures on walls instead, by default averaged over past steps: they
+ *  must not drive a body.
  *
  *  With the acceleration a of the tank, the change of its velocity over dt,
  *

@@ -400,6 +400,19 @@ expect 2 "no.yaml" "$program" coefficients no.yaml -o none
 expect 2 "--set: there are too many" "$program" coefficients forced.yaml "${many[@]:0:120}" -o none
 expect 2 "mps coefficients: --out: is too long" "$program" coefficients forced.yaml -o "$name"
 expect 2 "forced.yaml: centre, axes, forward and order are too long" "$program" coefficients forced.yaml --set "motion.centre=0.5$(printf ' %.0s' {1..1100})0 m" -o none
+refused_size() { # degrees, amplitude, degree that is named, what is allowed
+    expect 2 "mps coefficients: --amplitude: $3: '$2': it must be $4, and not 0, e.g. " "$program" coefficients forced.yaml --degrees "$1" --amplitude "$2" --period "1.6 T1" -o none
+    [ "$(wc -l < log)" -eq 1 ] || fail "an amplitude that is refused: $(cat log)"
+}
+refused_size "surge roll" "2 mm" roll "an angle"
+refused_size "roll surge" "2 mm" roll "an angle"
+refused_size "heave pitch" "1 dp" pitch "an angle" # 'pitch' is checked although the tank is 2-D
+refused_size "surge roll" "0 deg" surge "a length or an angle"
+refused_size "surge" "2 s" surge "a length or an angle"
+refused_size "surge" "2" surge "a length or an angle"
+refused_size "roll" "little" roll "an angle"
+refused_size "roll" "nan deg" roll "an angle"
+refused_size "roll" "1 deg, phase: 3 deg" roll "an angle"
 [ -e none ] && fail "a refused series made a folder"
 # motions and ramps of series that the folder is not of
 of_another() { # text, arguments of coefficients

@@ -185,6 +185,31 @@ static void names_in_messages(void **state)
     mps_sim_destroy(sim);
 }
 
+/* What is averaged over less than dp resolves says so; a force without any mean is the load of the step, and does not. */
+static void windows_that_are_short(void **state)
+{
+    static const struct {
+        int32_t type;
+        double average;
+        bool tells;
+    } cases[] = {{MPS_PROBE_WALL_PRESSURE, 0, true},  {MPS_PROBE_WALL_PRESSURE, 1e-9, true},
+                 {MPS_PROBE_WALL_PRESSURE, 1, false}, {MPS_PROBE_FORCE, 0, false},
+                 {MPS_PROBE_FORCE, 1e-9, true},       {MPS_PROBE_FORCE, 1, false},
+                 {MPS_PROBE_GAUGE, 0, false}};
+    (void)state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        mps_sim *sim = logging(2);
+        mps_probe p = probe_of(cases[k].type, 0, 0.1, 0);
+        int32_t id;
+        fill_depth(sim, 0.4, 0.2, 0.1);
+        p.average = cases[k].average;
+        ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
+        for (int n = 0; n < 20; n++) ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+        assert_true((strstr(told, "averages over") != NULL) == cases[k].tells);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* A force that lags says so, once, to a host that moves the tank by poses and does not watch its load. */
 static void forces_that_lag(void **state)
 {
@@ -220,7 +245,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(in_a_corner),       cmocka_unit_test(on_a_plate),
         cmocka_unit_test(normals_refused),   cmocka_unit_test(names),
-        cmocka_unit_test(names_in_messages), cmocka_unit_test(forces_that_lag),
+        cmocka_unit_test(names_in_messages), cmocka_unit_test(windows_that_are_short),
+        cmocka_unit_test(forces_that_lag),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

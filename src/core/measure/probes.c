@@ -416,13 +416,14 @@ static double window(const mps__world *w, const mps_probe *c)
     return c->average == MPS_AVERAGE_AUTO ? w->state.crossing_time : c->average;
 }
 
-/* Say once that a pressure is averaged over less than the resolution can tell. */
+/* Say once that a pressure is averaged over less than the resolution can tell. A force without any mean is not read for its peaks: it is the load
+ * of the step, for a host that moves a body by it or makes means of its own. */
 static void note_window(mps__world *w, const mps__probes *p, int64_t k)
 {
     const mps_probe *c = &p->list[k].config;
     char label[MPS__PROBE_LABEL];
     if (w->state.window_told || c->type == MPS_PROBE_GAUGE ||
-        window(w, c) >= w->state.crossing_time)
+        (c->type == MPS_PROBE_FORCE && c->average == 0) || window(w, c) >= w->state.crossing_time)
         return;
     w->state.window_told = true;
     mps__log(w->context, MPS_LOG_WARNING,
