@@ -439,4 +439,5 @@ const mps_model_ops mps__gas_pocket = {.struct_size = sizeof(mps_model_ops),
                                        .channels = channels,
                                        .verb_count = sizeof verbs / sizeof *verbs,
                                        .verbs = verbs,
-                                       .reach = reach};
+                                       .reach = reach,
+                                       .check = mps__pocket_check};

@@ -20,8 +20,13 @@ typedef struct mps__pocket {
     double flux;     /* into fluid particles, at the end of the last step [m3/s] */
 } mps__pocket;
 
+/* Of head and pockets: another number with each change of them. It is negative, because states
+ * before it began with the number of pockets. */
+#define MPS__POCKET_LAYOUT (-1.0)
+
 /* What the state of the model begins with; then `pockets` of mps__pocket, then `runs` pairs. */
 typedef struct mps__pocket_head {
+    double layout;  /* MPS__POCKET_LAYOUT */
     double pockets; /* number */
     double serial;  /* pockets that have closed so far */
     double closed;  /* gas that has been enclosed so far */
@@ -65,6 +70,8 @@ mps__pocket_head *mps__pocket_open(mps_stage *s, mps__pocket **pocket);
 /* Keep head, pockets and labels for the next step. @return non-zero after a failure */
 int mps__pocket_write(mps_stage *s, const mps_voids *voids, const mps__pocket_now *now,
                       mps__pocket_head *head);
+/* mps_model_ops.check of gas.pocket. */
+int mps__pocket_check(const double *numbers, int64_t count, char *why, size_t size);
 /* Pressure of gas in a volume [Pa]. setting: of gas.pocket */
 double mps__pocket_pressure(const double *setting, double gas, double volume);
 

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pockets of gas between steps: the state of the model gas.pocket. */
 #include "gas_pocket.h"
+#include <stdio.h>
 #include <string.h>
 
 enum {
@@ -77,6 +78,7 @@ int mps__pocket_write(mps_stage *s, const mps_voids *v, const mps__pocket_now *n
     const int64_t count = runs(v, label, NULL);
     double *state = mps_stage_state(s, HEAD + POCKET * pockets + 2 * count);
     if (!state) return 1;
+    head->layout = MPS__POCKET_LAYOUT;
     head->pockets = pockets;
     head->runs = (double)count;
     if (pockets == 0) head->ambient = 0;
@@ -92,5 +94,60 @@ int mps__pocket_write(mps_stage *s, const mps_voids *v, const mps__pocket_now *n
                sizeof(mps__pocket));
     }
     runs(v, label, state + HEAD + POCKET * pockets);
+    return 0;
+}
+
+/* ---- states of checkpoints ---- */
+
+static bool is_count(double x, double most)
+{
+    return x >= 0 && x <= most && x == floor(x);
+}
+
+/* Whether the runs fill the raster of the head, with labels of its pockets. */
+static bool are_runs(const mps__pocket_head *head, const double *run)
+{
+    double all = 1, sum = 0;
+    for (int d = 0; d < 3; d++) {
+        if (!is_count(head->cells[d], INT32_MAX)) return false;
+        all *= head->cells[d];
+    }
+    for (int64_t r = 0; r < (int64_t)head->runs; r++) {
+        if (!(run[2 * r] > 0) || !is_count(run[2 * r], all) ||
+            !is_count(run[2 * r + 1], MPS__POCKET_FIRST + head->pockets - 1))
+            return false;
+        sum += run[2 * r];
+    }
+    return sum == all;
+}
+
+int mps__pocket_check(const double *numbers, int64_t count, char *why, size_t size)
+{
+    const mps__pocket_head *head = (const mps__pocket_head *)(const void *)numbers;
+    if (count == 0) return 0; /* before the first step */
+    if (numbers[0] != MPS__POCKET_LAYOUT) {
+        snprintf(why, size, "their layout is %g, of another build; must be %g", numbers[0],
+                 MPS__POCKET_LAYOUT);
+        return 1;
+    }
+    if (count < HEAD || !is_count(head->pockets, (double)count) ||
+        !is_count(head->runs, (double)count) ||
+        HEAD + POCKET * (int64_t)head->pockets + 2 * (int64_t)head->runs != count) {
+        snprintf(why, size,
+                 "there are %lld, which is not %d, %d for each pocket and 2 for each run",
+                 (long long)count, (int)HEAD, (int)POCKET);
+        return 1;
+    }
+    const mps__pocket *pocket = (const mps__pocket *)(const void *)(numbers + HEAD);
+    for (int64_t k = 0; k < (int64_t)head->pockets; k++)
+        if (!(pocket[k].gas > 0)) {
+            snprintf(why, size, "the gas of pocket %lld is %g; must be > 0", (long long)k,
+                     pocket[k].gas);
+            return 1;
+        }
+    if (!are_runs(head, numbers + HEAD + POCKET * (int64_t)head->pockets)) {
+        snprintf(why, size, "the labels of the raster do not fill it, or are of no pocket");
+        return 1;
+    }
     return 0;
 }

@@ -178,12 +178,12 @@ SIZE(mps_verb, 40);
 AT(mps_verb, hook, 0); AT(mps_verb, use_count, 4); AT(mps_verb, uses, 8); AT(mps_verb, after, 16); AT(mps_verb, before, 24);
 AT(mps_verb, run, 32);
 
-SIZE(mps_model_ops, 104);
+SIZE(mps_model_ops, 112);
 AT(mps_model_ops, struct_size, 0); AT(mps_model_ops, api, 4); AT(mps_model_ops, name, 8); AT(mps_model_ops, help, 16);
 AT(mps_model_ops, setting_count, 24); AT(mps_model_ops, channel_count, 28); AT(mps_model_ops, verb_count, 32);
 AT(mps_model_ops, part_count, 36); AT(mps_model_ops, settings, 40); AT(mps_model_ops, channels, 48); AT(mps_model_ops, verbs, 56);
 AT(mps_model_ops, create, 64); AT(mps_model_ops, destroy, 72); AT(mps_model_ops, user, 80); AT(mps_model_ops, reach, 88);
-AT(mps_model_ops, parts, 96);
+AT(mps_model_ops, parts, 96); AT(mps_model_ops, check, 104);
 
 SIZE(mps_motion_state, 152);
 AT(mps_motion_state, struct_size, 0); AT(mps_motion_state, reserved, 4); AT(mps_motion_state, value, 8); AT(mps_motion_state, rate, 56);

@@ -2,6 +2,7 @@
 /* The model gas.pocket in runs: without a pocket nothing changes; bytes do not depend on threads
  * and restarts; gas is kept in a violent flow; walls in a pocket show its pressure. */
 #include "phase/gas_pocket.h"
+#include "checkpoint_editor.h"
 #include "frame_fixture.h"
 
 static const double DP = 0.02;
@@ -148,6 +149,76 @@ static void restart(void **state)
     ASSERT_OK(b, mps_energy_get(b, &f));
     assert_true(e.gas != 0 && e.gas == f.gas);
     remove(file);
+    mps_sim_destroy(a);
+    mps_sim_destroy(b);
+}
+
+/* A number of the state, and what is said when it is another. */
+typedef struct forgery {
+    size_t at;
+    double value;
+    const char *word;
+} forgery;
+
+/* The only model with numbers. */
+static void find_numbers(unsigned char *bytes, size_t size, char *name, size_t room)
+{
+    editor_part p = {0};
+    for (int k = 0; k < 64; k++) {
+        snprintf(name, room, "numbers of model %d", k);
+        if (editor_find(bytes, size, name, &p)) return;
+    }
+    fail_msg("no numbers");
+}
+
+/* States of another build of the model, or damaged ones, are refused and change nothing. */
+static void states_that_do_not_fit(void **state)
+{
+    (void)state;
+    enum { HEAD = sizeof(mps__pocket_head) / 8, POCKET = sizeof(mps__pocket) / 8 };
+#define OF_HEAD(member) (offsetof(mps__pocket_head, member) / 8)
+    static const forgery all[] = {
+        {OF_HEAD(layout), 1, "'gas.pocket' in the checkpoint do not fit: their layout is 1"},
+        {OF_HEAD(layout), 0, "their layout is 0, of another build; must be -1"},
+        {OF_HEAD(pockets), 2, ", which is not "},
+        {OF_HEAD(pockets), -1, ", which is not "},
+        {OF_HEAD(pockets), 1e300, ", which is not "},
+        {OF_HEAD(runs), 1.5, ", which is not "},
+        {HEAD + offsetof(mps__pocket, gas) / 8, 0, "the gas of pocket 0 is 0; must be > 0"},
+        {HEAD + POCKET, 1e6, "the labels of the raster"},
+        {HEAD + POCKET, -1, "the labels of the raster"},
+        {HEAD + POCKET + 1, 3, "the labels of the raster"},
+        {HEAD + POCKET + 1, 0.5, "the labels of the raster"},
+        {OF_HEAD(cells), -1, "the labels of the raster"},
+        {OF_HEAD(cells[1]), 7, "the labels of the raster"}};
+#undef OF_HEAD
+    char path[300], name[MPS__PART_TITLE];
+    size_t size;
+    scene s = closed;
+    mps_sim *a = build(&s), *b = build(&s);
+    snprintf(path, sizeof path, "%s/state", folder);
+    run_steps(a, 5);
+    run_steps(b, 5);
+    ASSERT_OK(a, mps_checkpoint_write(a, path));
+    unsigned char *bytes = (unsigned char *)slurp("state", &size), *copy = malloc(size);
+    assert_non_null(copy);
+    find_numbers(bytes, size, name, sizeof name);
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
+        memcpy(copy, bytes, size);
+        assert_true(editor_put(copy, size, name, 8 * all[k].at, &all[k].value, 8));
+        editor_repair(copy, size);
+        FILE *file = fopen(path, "wb");
+        assert_non_null(file);
+        assert_int_equal(fwrite(copy, 1, size, file), size);
+        fclose(file);
+        ASSERT_REFUSED(a, mps_checkpoint_read(a, path), MPS_E_VERSION, all[k].word);
+    }
+    run_steps(a, 5); /* the refusals did it no harm */
+    run_steps(b, 5);
+    assert_same(a, b);
+    remove(path);
+    free(bytes);
+    free(copy);
     mps_sim_destroy(a);
     mps_sim_destroy(b);
 }
@@ -359,6 +430,7 @@ int main(void)
     const struct CMUnitTest tests[] = {cmocka_unit_test(no_pocket_no_change),
                                        cmocka_unit_test(threads),
                                        cmocka_unit_test(restart),
+                                       cmocka_unit_test(states_that_do_not_fit),
                                        cmocka_unit_test(gas_is_kept),
                                        cmocka_unit_test(carried),
                                        cmocka_unit_test(particles_name_it),

@@ -243,6 +243,7 @@ mps_model_ops._fields_ = [
     ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
     ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p),
     ("reach", CFUNCTYPE(c_double, POINTER(c_double), c_double)), ("parts", POINTER(c_char_p)),
+    ("check", CFUNCTYPE(c_int, POINTER(c_double), c_int64, POINTER(c_char), c_size_t)),
 ]
 mps_particle_block._fields_ = [
     ("struct_size", c_uint32), ("kind", c_int32), ("phase", c_int32), ("part", c_char_p), ("count", c_int64),

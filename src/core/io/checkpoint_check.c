@@ -370,11 +370,16 @@ mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t pro
 
 /* ---- models ---- */
 
-mps_status mps__check_numbers(mps__context *c, const char *name, const mps__numbers *s)
+mps_status mps__check_numbers(mps__context *c, const mps_model_ops *ops, const mps__numbers *s)
 {
+    char why[200] = "";
     for (int64_t k = 0; k < s->count; k++)
         if (!isfinite(s->value[k]))
-            DAMAGED("number %lld of model '%s' is %g; must be finite", (long long)k, name,
+            DAMAGED("number %lld of model '%s' is %g; must be finite", (long long)k, ops->name,
                     s->value[k]);
+    if (ops->check && ops->check(s->value, s->count, why, sizeof why) != 0)
+        return mps__fail(c, MPS_E_VERSION,
+                         "the numbers of model '%s' in the checkpoint do not fit: %.*s", ops->name,
+                         (int)sizeof why - 1, why);
     return MPS_OK;
 }

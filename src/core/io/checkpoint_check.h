@@ -24,8 +24,8 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
 mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
 /* What a body that carries the tank keeps. */
 mps_status mps__check_body(mps__context *c, const mps__body_state *b);
-/* What model `name` keeps for all particles. */
-mps_status mps__check_numbers(mps__context *c, const char *name, const mps__numbers *s);
+/* What a model keeps for all particles. */
+mps_status mps__check_numbers(mps__context *c, const mps_model_ops *ops, const mps__numbers *s);
 /* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */
 mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe,
                              const mps__series *s, int64_t waits);

@@ -301,7 +301,7 @@ static mps_status find_numbers(arrival *v)
         if (!mps__archive_has(v->a, model_title(name, k))) continue;
         MPS__TRY(copy_part(v, name, sizeof(double), &s->value, &s->count));
         s->capacity = s->count;
-        MPS__TRY(mps__check_numbers(v->a->context, m->on[k].ops->name, s));
+        MPS__TRY(mps__check_numbers(v->a->context, m->on[k].ops, s));
     }
     return MPS_OK;
 }
