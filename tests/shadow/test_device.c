@@ -267,9 +267,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {105, 130}, {55, 70}, {60, 100}, {200, 280}},
-        {"imps", 3, {115, 140}, {55, 72}, {60, 105}, {180, 250}},
-        {"mmps", 2, {120, 145}, {50, 65}, {80, 130}, {120, 200}},
+        {"imps", 2, {115, 145}, {48, 62}, {18, 35}, {90, 140}},
+        {"imps", 3, {125, 155}, {48, 64}, {8, 25}, {80, 160}},
+        {"mmps", 2, {120, 160}, {45, 65}, {20, 60}, {80, 180}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
@@ -309,7 +309,7 @@ static void costs(void **state)
  * come from the host. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{60, 100}, {60, 105}}, {{60, 110}, {65, 120}}};
+    static const double range[2][2][2] = {{{12, 35}, {12, 40}}, {{6, 30}, {6, 35}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);

@@ -134,6 +134,47 @@ static void other_scenes(void **state)
     }
 }
 
+/* Two drops in the air: bodies that nothing holds, which come to the host to be counted. */
+static mps_sim *drops(int32_t dim)
+{
+    const double dp = dim == 2 ? 0.02 : 0.04, wide = 5 * dp;
+    mps_sim *sim = new_sim(dim, dp);
+    shadow_heap(sim);
+    ASSERT_OK(sim, mps_preset_use(sim, "imps"));
+    add_tank(sim, 0.6, 0.6, 0.4);
+    fill_depth(sim, 0.6, 0.1, 0.4);
+    for (int k = 0; k < 2; k++) {
+        const double lo[3] = {0.1 + 0.25 * k, 0.25, 0.1}, hi[3] = {lo[0] + wide, 0.25 + wide, 0.3};
+        ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
+    }
+    ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
+    add_probes(sim);
+    shake(sim, 0.05);
+    return sim;
+}
+
+static void drops_are_free(void **state)
+{
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        mps_sim *host = drops(dim), *sim = drops(dim);
+        int64_t sets = 0;
+        shadow s;
+        shadow_attach(&s, sim);
+        for (int k = 0; k < 12; k++) {
+            go(host, 1);
+            go(sim, 1);
+            assert_int_equal(host->world.host.sets.count, sim->world.host.sets.count);
+            sets += sim->world.host.sets.count > 1;
+            same(host, sim);
+        }
+        same_memory(host, sim);
+        assert_true(sets > 0);
+        mps_sim_destroy(host);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* A tank without a surface: nothing gives the pressures a level. */
 static mps_sim *closed(int32_t dim)
 {
@@ -342,9 +383,13 @@ static void without_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(presets),         cmocka_unit_test(other_scenes),
-        cmocka_unit_test(other_solutions), cmocka_unit_test(all_models),
-        cmocka_unit_test(plugins),         cmocka_unit_test(an_undeclared_use_is_found),
+        cmocka_unit_test(drops_are_free),
+        cmocka_unit_test(presets),
+        cmocka_unit_test(other_scenes),
+        cmocka_unit_test(other_solutions),
+        cmocka_unit_test(all_models),
+        cmocka_unit_test(plugins),
+        cmocka_unit_test(an_undeclared_use_is_found),
         cmocka_unit_test(without_room),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

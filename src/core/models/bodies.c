@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Bodies of fluid for verbs of models: found on each rank by a search from row to row, then put together. */
-#include "host.h"
+#include "bodies.h"
 
 /* Rows of a body in the order in which they were found. */
 typedef struct search {
@@ -15,13 +15,9 @@ typedef struct search {
 /* In `body` until all is over: not looked at; member of a body that is held; row of another rank. */
 enum { NEW = -1, HELD = -2, ELSEWHERE = -3 };
 
-/* Flags of a set: it is held; it has a row where searches may begin. */
-enum { FLAG_HELD = 1, FLAG_SEEDED = 2 };
-
-/* Solids may have no rows: a link through one would depend on where the search begins. */
 static bool belongs(const search *k, int64_t i)
 {
-    return mps_is_fluid(k->s, i) && (k->role[i] == MPS_BODY_SEED || k->role[i] == MPS_BODY_MEMBER);
+    return mps__body_has(k->s, k->role, i);
 }
 
 static void join(search *k, int64_t i, int32_t number)
@@ -92,7 +88,7 @@ static mps_status list_parts(const search *k, int32_t count, mps__sets *sets)
         mps__set *part = &sets->part[k->body[i]];
         part->rows++;
         part->label = k->s->id[i] < part->label ? k->s->id[i] : part->label;
-        part->flags |= k->role[i] == MPS_BODY_SEED ? FLAG_SEEDED : 0;
+        part->flags |= k->role[i] == MPS_BODY_SEED ? MPS__BODY_SEEDED : 0;
     }
     return MPS_OK;
 }
@@ -111,20 +107,19 @@ static mps_status join_border(const search *k, mps__host *h, double *label)
             const int32_t j = mps_stencil_column(t, p);
             if (k->body[j] != ELSEWHERE || !belongs(k, j)) continue;
             if (label[j] < 0)
-                part[k->body[i]].flags |= FLAG_HELD;
+                part[k->body[i]].flags |= MPS__BODY_HELD;
             else
                 MPS__TRY(mps__sets_join(&h->sets, (int64_t)label[i], (int64_t)label[j]));
         }
     return MPS_OK;
 }
 
-/* Numbers of the sets that are free, by their labels; -1 for the others. */
-static void number_sets(mps__sets *sets, int32_t most)
+void mps__bodies_number(mps__sets *sets, int32_t most)
 {
     int32_t count = 0;
     for (int64_t k = 0; k < sets->count; k++) {
         const mps__set *set = &sets->list[k];
-        const bool is_free = !(set->flags & FLAG_HELD) && set->flags & FLAG_SEEDED &&
+        const bool is_free = !(set->flags & MPS__BODY_HELD) && set->flags & MPS__BODY_SEEDED &&
                              set->rows <= most;
         sets->list[k].number = is_free ? count++ : -1;
     }
@@ -145,7 +140,7 @@ static int merge_bodies(mps_stage *s, search *k, int32_t count)
     if (status == MPS_OK) status = mps__sets_merge(&h->sets, h->ghosts->ranks);
     h->no_memory = h->no_memory || status == MPS_E_NOMEM;
     if (status < 0) return 1;
-    number_sets(&h->sets, k->most);
+    mps__bodies_number(&h->sets, k->most);
     for (int64_t i = 0; i < s->view->n; i++)
         k->body[i] = k->body[i] < 0 ? -1
                                     : mps__sets_find(&h->sets, (int64_t)least[k->body[i]])->number;
@@ -170,29 +165,9 @@ static int find_free(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
     return 0;
 }
 
-/* Arrays of a device: searched on the host. */
-static int find_there(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
-{
-    mps__host *h = s->host;
-    const size_t bytes = (size_t)s->view->n * sizeof *body;
-    const mps_view *there = mps__host_begin_serial(s);
-    int32_t *own_role = mps_stage_scratch_integers(s, s->view->n),
-            *own_body = mps_stage_scratch_integers(s, s->view->n);
-    int failed = !own_role || !own_body;
-    if (!failed) {
-        mps__twins_lists_ready(&h->twins);
-        mps__device_download(&h->twins.device, own_role, role, bytes);
-        failed = h->twins.device.failed || find_free(s, most, own_role, own_body);
-        mps__device_upload(&h->twins.device, body, own_body, bytes);
-    }
-    h->scratch_used -= 2;
-    mps__host_end_serial(s, there);
-    return failed;
-}
-
 int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
 {
     const mps__host *h = s->host;
-    return h->twins.place == MPS__ON_DEVICE ? find_there(s, most, role, body)
+    return h->twins.place == MPS__ON_DEVICE ? mps__bodies_there(s, most, role, body)
                                             : find_free(s, most, role, body);
 }

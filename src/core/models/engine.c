@@ -14,13 +14,25 @@ enum {
 
 /* ---- twins ---- */
 
-/* The twin of a channel; NULL: it has none. */
+/* The twin of the field that an array of the host is; NULL: it is none. */
+static mps__twin *twin_of_field(mps__twins *t, const void *array)
+{
+    for (int32_t k = 0; array && k < t->particles->fields; k++)
+        if (*t->particles->field[k].data == array) return &t->list[FIELDS + k];
+    return NULL;
+}
+
+/* The twin of a channel; NULL: it has none. Places and areas of solids are fields of the particles where no model writes them. */
 static mps__twin *twin_of(mps__twins *t, int32_t channel)
 {
     if (channel < 0) return NULL;
     const mps__field *f = mps__channels_field(t->channels, t->particles, channel);
     if (f) return &t->list[FIELDS + (f - t->particles->field)];
-    return mps__channel_is_scalar(&t->channels->list[channel]) ? NULL : &t->list[channel];
+    if (mps__channel_is_scalar(&t->channels->list[channel])) return NULL;
+    mps__twin *twin = channel == MPS__SOLID_PLACE || channel == MPS__SOLID_AREA
+                          ? twin_of_field(t, t->channels->list[channel].array)
+                          : NULL;
+    return twin ? twin : &t->list[channel];
 }
 
 static void *host_array(const mps__twins *t, int32_t channel)

@@ -2,89 +2,25 @@
 /* Components of the pressure equation, and whether each has a level: a row that sees a known pressure, or volume that can change. Nearly always
  * all have one. Then one pass over the entries on all threads is enough: trees of joined rows, whose root is their lowest row. */
 #include "levels.h"
+#include "forest.h"
 #include "loop.h"
-#ifndef MPS_DEVICE
-#include <stdatomic.h>
-#endif
 
-/* Numbers that threads meet at. Compilers for devices know the operations of C11 as calls alone. */
-#ifdef MPS_DEVICE
-typedef volatile int32_t shared;
-
-MPS_ROW int32_t get(const shared *at)
-{
-    return *at;
-}
-
-MPS_ROW void put(shared *at, int32_t value)
-{
-    *at = value;
-}
-
-MPS_ROW bool replace(shared *at, int32_t before, int32_t value)
-{
-    return __sync_bool_compare_and_swap(at, before, value);
-}
-#else
-typedef _Atomic int32_t shared;
-
-MPS_ROW int32_t get(const shared *at)
-{
-    return atomic_load_explicit(at, memory_order_relaxed);
-}
-
-MPS_ROW void put(shared *at, int32_t value)
-{
-    atomic_store_explicit(at, value, memory_order_relaxed);
-}
-
-MPS_ROW bool replace(shared *at, int32_t before, int32_t value)
-{
-    return atomic_compare_exchange_strong(at, &before, value);
-}
-#endif
-
-/* The lowest row of every tree is its own parent, others have a lower one. Parents are only ever replaced by rows further up, so that threads
- * may meet in a tree. */
 typedef struct forest {
     int64_t n; /* rows of this rank */
     const int64_t *row;
     const int32_t *col;
     const double *shift;
-    shared *parent;
-    shared *level; /* of a root: 1 if a row of its tree has a level */
+    mps__shared_number *parent;
+    mps__shared_number *level; /* of a root: 1 if a row of its tree has a level */
 } forest;
-
-/* Rows on the way are brought nearer to it. */
-MPS_ROW int32_t root_of(const forest *f, int32_t r)
-{
-    int32_t parent = get(&f->parent[r]);
-    while (parent != r) {
-        const int32_t above = get(&f->parent[parent]);
-        if (above != parent) put(&f->parent[r], above);
-        r = parent;
-        parent = above;
-    }
-    return r;
-}
-
-/* Make one tree of those of rows r and c. */
-MPS_ROW void join(const forest *f, int32_t r, int32_t c)
-{
-    for (;;) {
-        const int32_t a = root_of(f, r), b = root_of(f, c), low = a < b ? a : b,
-                      high = a < b ? b : a;
-        if (low == high || replace(&f->parent[high], high, low)) return;
-    }
-}
 
 /* Most rows come into the tree of their first column at once. */
 MPS_ROW void begin_row(const int dim, const forest *f, int64_t r)
 {
     const int64_t first = f->row[r] < f->row[r + 1] ? f->col[f->row[r]] : r;
     (void)dim;
-    put(&f->parent[r], (int32_t)(first < r ? first : r));
-    put(&f->level[r], 0);
+    mps__forest_put(&f->parent[r], (int32_t)(first < r ? first : r));
+    mps__forest_put(&f->level[r], 0);
 }
 MPS__LOOP(begin_rows, begin_row, forest)
 
@@ -94,7 +30,8 @@ MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
     for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
         if (f->col[k] >= f->n) continue; /* of another rank: it may stand anywhere in the row */
         if (f->col[k] > r) break;
-        if (get(&f->parent[f->col[k]]) != get(&f->parent[r])) join(f, (int32_t)r, f->col[k]);
+        if (mps__forest_get(&f->parent[f->col[k]]) != mps__forest_get(&f->parent[r]))
+            mps__forest_join(f->parent, (int32_t)r, f->col[k]);
     }
 }
 MPS__LOOP(join_rows, join_row, forest)
@@ -102,13 +39,13 @@ MPS__LOOP(join_rows, join_row, forest)
 MPS_ROW void raise_row(const int dim, const forest *f, int64_t r)
 {
     (void)dim;
-    if (f->shift[r] > 0) put(&f->level[root_of(f, (int32_t)r)], 1);
+    if (f->shift[r] > 0) mps__forest_put(&f->level[mps__forest_root(f->parent, (int32_t)r)], 1);
 }
 MPS__LOOP(raise_rows, raise_row, forest)
 
 MPS_ROW bool lacks_level(const forest *f, int64_t r)
 {
-    return get(&f->parent[r]) == r && get(&f->level[r]) == 0;
+    return mps__forest_get(&f->parent[r]) == r && mps__forest_get(&f->level[r]) == 0;
 }
 MPS__FIRST(lacking_rows, lacks_level, forest)
 
@@ -119,8 +56,8 @@ static bool any_lacks_level(const mps__ppe *e)
                       .row = e->row,
                       .col = e->col,
                       .shift = e->shift,
-                      .parent = (shared *)(void *)e->queue,
-                      .level = (shared *)(void *)e->component};
+                      .parent = (mps__shared_number *)(void *)e->queue,
+                      .level = (mps__shared_number *)(void *)e->component};
     mps__loop_run(e->parallel, &begin_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &raise_rows, MPS__ANY_DIM, e->n, &f);

@@ -106,6 +106,7 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
         MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
     MPS__TRY(mps__world_lists_twins(w));
+    mps__step_find_areas(w);
     mps__step_open(q);
     mps__host_tell_places(&w->host);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));

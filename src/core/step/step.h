@@ -89,8 +89,9 @@ extern const mps__pass mps__pass_clear_equation, mps__pass_first_conditions;
 
 /* ---- the tank: step_tank.c ---- */
 
-/* Area vectors of the walls at the beginning of the step. */
+/* Room for area vectors of the walls at the beginning of the step; the vectors, where the loops of the step run. */
 mps_status mps__step_turn_areas(mps__world *w);
+void mps__step_find_areas(mps__world *w);
 /* Where the channels "solid_place" and "solid_area" are in this step; and after it. */
 mps_status mps__step_place_solids(mps__world *w);
 void mps__step_keep_places(mps__world *w, const double *place, const double *area);

@@ -223,7 +223,7 @@ MPS_ROW void turn_row(const int dim, const mps_view *v, const turn_fields *f, in
 }
 MPS_ROWS(turn_rows, turn_row, turn_fields)
 
-/* Area vectors turn with the tank. */
+/* Area vectors turn with the tank: they have room of their own then. */
 mps_status mps__step_turn_areas(mps__world *w)
 {
     const mps__particles *s = &w->particles;
@@ -232,11 +232,21 @@ mps_status mps__step_turn_areas(mps__world *w)
     if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
     MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim,
                        sizeof *k->turned));
-    mps_view v;
-    mps__world_view(w, &v);
-    w->host.everywhere = true;
-    mps__host_rows(&w->host, &v, &turn_rows, &(turn_fields){s->area, k->turned});
-    w->host.everywhere = false;
     k->area = k->turned;
     return MPS_OK;
+}
+
+void mps__step_find_areas(mps__world *w)
+{
+    const mps__particles *s = &w->particles;
+    mps_view v;
+    if (w->work.area == s->area) return;
+    mps__world_view(w, &v);
+    v.area = s->area; /* the others are made here */
+    w->host.everywhere = true;
+    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    const turn_fields f = {mps__seen(w, s->area), mps__given(w, w->work.turned)};
+    mps__host_rows(&w->host, &v, &turn_rows, &f);
+    mps__twins_go(&w->host.twins, MPS__ON_HOST);
+    w->host.everywhere = false;
 }

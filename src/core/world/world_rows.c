@@ -223,5 +223,5 @@ mps_status mps__world_lists_twins(mps__world *w)
     MPS__TRY(show_lists(w));
     MPS__TRY(mps__twins_block(t, MPS__NEAR_BEGIN, l->near_begin, mps__scan_room(n + 1),
                               sizeof *l->near_begin, false));
-    return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), true);
+    return mps__twins_block(t, MPS__TURNED_AREAS, w->work.turned, turned, sizeof(double), false);
 }

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Trees of rows that threads join at once, for loops over rows: the lowest row of every tree is its own parent, others have a lower one. Parents
+ * are only ever replaced by rows further up, so that threads may meet in a tree; which rows are in a tree depends on no order. */
+#ifndef MPS_CORE_FOREST_H
+#define MPS_CORE_FOREST_H
+
+#include <mps/stage.h>
+#include <stdbool.h>
+#include <stdint.h>
+#ifndef MPS_DEVICE
+#include <stdatomic.h>
+#endif
+
+/* Numbers that threads meet at. Compilers for devices know the operations of C11 as calls alone. */
+#ifdef MPS_DEVICE
+typedef volatile int32_t mps__shared_number;
+
+MPS_ROW int32_t mps__forest_get(const mps__shared_number *at)
+{
+    return *at;
+}
+
+MPS_ROW void mps__forest_put(mps__shared_number *at, int32_t value)
+{
+    *at = value;
+}
+
+MPS_ROW bool mps__forest_replace(mps__shared_number *at, int32_t before, int32_t value)
+{
+    return __sync_bool_compare_and_swap(at, before, value);
+}
+#else
+typedef _Atomic int32_t mps__shared_number;
+
+MPS_ROW int32_t mps__forest_get(const mps__shared_number *at)
+{
+    return atomic_load_explicit(at, memory_order_relaxed);
+}
+
+MPS_ROW void mps__forest_put(mps__shared_number *at, int32_t value)
+{
+    atomic_store_explicit(at, value, memory_order_relaxed);
+}
+
+MPS_ROW bool mps__forest_replace(mps__shared_number *at, int32_t before, int32_t value)
+{
+    return atomic_compare_exchange_strong(at, &before, value);
+}
+#endif
+
+/* Rows on the way are brought nearer to it. */
+MPS_ROW int32_t mps__forest_root(mps__shared_number *parents, int32_t r)
+{
+    int32_t parent = mps__forest_get(&parents[r]);
+    while (parent != r) {
+        const int32_t above = mps__forest_get(&parents[parent]);
+        if (above != parent) mps__forest_put(&parents[r], above);
+        r = parent;
+        parent = above;
+    }
+    return r;
+}
+
+/* Make one tree of those of rows r and c. */
+MPS_ROW void mps__forest_join(mps__shared_number *parents, int32_t r, int32_t c)
+{
+    for (;;) {
+        const int32_t a = mps__forest_root(parents, r), b = mps__forest_root(parents, c),
+                      low = a < b ? a : b, high = a < b ? b : a;
+        if (low == high || mps__forest_replace(&parents[high], high, low)) return;
+    }
+}
+
+#endif

@@ -1,0 +1,180 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Bodies of fluid at a device: trees of joined rows. Only rows of bodies that nothing holds come to the host, which counts and numbers them: drops,
+ * few of all rows. */
+#include "bodies.h"
+#include "forest.h"
+#include "loop.h"
+#include "scan.h"
+
+typedef struct joining {
+    const int32_t *role;
+    mps__shared_number *parent, *held; /* of a root: 1 if a row of its tree is beside an anchor */
+    int64_t *number; /* of a row without an anchor; of others that of the one before */
+    int64_t
+        *list; /* of such a row its id; place of its root in this list, and whether it is a seed */
+    const int32_t *given; /* bodies of those rows */
+    int32_t *body;
+} joining;
+
+/* Most rows come into the tree of their first neighbour at once. */
+MPS_ROW void begin_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    const int64_t begin = mps_stencil_begin(t, i);
+    int64_t first = i;
+    (void)dim;
+    if (mps__body_has(v, f->role, i) && begin < mps_stencil_end(t, i))
+        first = mps_stencil_column(t, begin);
+    mps__forest_put(&f->parent[i],
+                    (int32_t)(first < i && mps__body_has(v, f->role, first) ? first : i));
+    mps__forest_put(&f->held[i], 0);
+}
+MPS_ROWS(begin_rows, begin_row, joining)
+
+MPS_ROW void join_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    (void)dim;
+    if (!mps__body_has(v, f->role, i)) return;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int32_t j = mps_stencil_column(t, p);
+        if (j < i && mps__body_has(v, f->role, j) &&
+            mps__forest_get(&f->parent[j]) != mps__forest_get(&f->parent[i]))
+            mps__forest_join(f->parent, (int32_t)i, j);
+    }
+}
+MPS_ROWS(join_rows, join_row, joining)
+
+MPS_ROW void hold_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    bool held = false;
+    (void)dim;
+    if (!mps__body_has(v, f->role, i)) return;
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i) && !held; p++)
+        held = f->role[mps_stencil_column(t, p)] == MPS_BODY_ANCHOR;
+    if (held) mps__forest_put(&f->held[mps__forest_root(f->parent, (int32_t)i)], 1);
+}
+MPS_ROWS(hold_rows, hold_row, joining)
+
+MPS_ROW void mark_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    (void)dim;
+    f->number[i] = mps__body_has(v, f->role, i) &&
+                   mps__forest_get(&f->held[mps__forest_root(f->parent, (int32_t)i)]) == 0;
+}
+MPS_ROWS(mark_rows, mark_row, joining)
+
+/* Whether a row is in the list, once numbers are there. */
+MPS_ROW bool is_listed(const joining *f, int64_t i)
+{
+    return f->number[i] > (i > 0 ? f->number[i - 1] : 0);
+}
+
+MPS_ROW void list_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    (void)dim;
+    if (!is_listed(f, i)) return;
+    int64_t *at = f->list + 2 * (f->number[i] - 1);
+    const int32_t root = mps__forest_root(f->parent, (int32_t)i);
+    at[0] = v->id[i];
+    at[1] = 2 * (f->number[root] - 1) + (f->role[i] == MPS_BODY_SEED);
+}
+MPS_ROWS(list_rows, list_row, joining)
+
+MPS_ROW void give_row(const int dim, const mps_view *v, const joining *f, int64_t i)
+{
+    (void)dim, (void)v;
+    f->body[i] = is_listed(f, i) ? f->given[f->number[i] - 1] : -1;
+}
+MPS_ROWS(give_rows, give_row, joining)
+
+/* ---- on the host ---- */
+
+/* Bodies of the rows in a list: a root is the first of its rows. */
+static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int32_t most,
+                                int32_t *body)
+{
+    mps__sets *sets = &h->sets;
+    mps__sets_begin(sets, h->context);
+    for (int64_t k = 0; k < count; k++) {
+        const int64_t root = list[2 * k + 1] / 2;
+        body[k] = root == k ? (int32_t)sets->parts : body[root];
+        if (root == k) MPS__TRY(mps__sets_add(sets, &(mps__set){.label = INT64_MAX}));
+        mps__set *part = &sets->part[body[k]];
+        part->rows++;
+        part->label = list[2 * k] < part->label ? list[2 * k] : part->label;
+        part->flags |= list[2 * k + 1] % 2 ? MPS__BODY_SEEDED : 0;
+    }
+    /* merging sorts the parts: labels are kept at their roots */
+    for (int64_t k = 0; k < count; k++)
+        if (list[2 * k + 1] / 2 == k) list[2 * k] = sets->part[body[k]].label;
+    MPS__TRY(mps__sets_merge(sets, h->ghosts->ranks));
+    mps__bodies_number(sets, most);
+    for (int64_t k = 0; k < count; k++)
+        body[k] = mps__sets_find(sets, list[list[2 * k + 1] / 2 * 2])->number;
+    return MPS_OK;
+}
+
+/* The list comes, and the bodies of its rows go. */
+static int number_here(mps_stage *s, int64_t count, int32_t most, const int64_t *list,
+                       int32_t *given)
+{
+    mps__host *h = s->host;
+    mps__device *d = &h->twins.device;
+    const mps_view *there = mps__host_begin_serial(s);
+    int64_t *own = (int64_t *)(void *)mps_stage_scratch(s, 2 * count);
+    int32_t *body = mps_stage_scratch_integers(s, count);
+    int failed = !own || !body;
+    if (!failed) {
+        mps__device_download(d, own, list, (size_t)(2 * count) * sizeof *own);
+        failed = d->failed;
+    }
+    if (!failed) {
+        const mps_status status = number_listed(h, own, count, most, body);
+        h->no_memory = h->no_memory || status == MPS_E_NOMEM;
+        failed = status < 0;
+        mps__device_upload(d, given, body, (size_t)count * sizeof *body);
+    }
+    mps__host_end_serial(s, there);
+    return failed;
+}
+
+/* ---- both ---- */
+
+static int number_bodies(mps_stage *s, int32_t most, joining *f)
+{
+    mps__host *h = s->host;
+    int64_t count = 0;
+    mps__scan(h->parallel, f->number, s->view->n);
+    mps__device_download(&h->twins.device, &count, f->number + s->view->n - 1, sizeof count);
+    if (h->twins.device.failed) return 1;
+    if (count == 0) return 0;
+    int32_t *given = mps_stage_scratch_integers(s, count);
+    f->list = (int64_t *)(void *)mps_stage_scratch(s, 2 * count);
+    f->given = given;
+    if (!f->list || !given) return 1;
+    mps_stage_rows(s, &list_rows, f);
+    return number_here(s, count, most, f->list, given);
+}
+
+int mps__bodies_there(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
+{
+    mps__host *h = s->host;
+    const int64_t n = s->view->n;
+    const int32_t used = h->scratch_used;
+    joining f = {.role = role,
+                 .parent = (mps__shared_number *)(void *)mps_stage_scratch_integers(s, n),
+                 .held = (mps__shared_number *)(void *)mps_stage_scratch_integers(s, n),
+                 .number = (int64_t *)(void *)mps_stage_scratch(s, mps__scan_room(n)),
+                 .body = body};
+    if (!f.parent || !f.held || !f.number) return 1;
+    mps_stage_rows(s, &begin_rows, &f);
+    mps_stage_rows(s, &join_rows, &f);
+    mps_stage_rows(s, &hold_rows, &f);
+    mps_stage_rows(s, &mark_rows, &f);
+    const int failed = number_bodies(s, most, &f);
+    if (!failed) mps_stage_rows(s, &give_rows, &f);
+    h->scratch_used = used;
+    return failed;
+}
