@@ -410,6 +410,7 @@ MPS_API int mps_stage_add(mps_stage *s, int32_t phase, int64_t count, const doub
 
 /** Let fluid out, in MPS_POPULATE: rows that leave the simulation when the verb returns. The budget
  *  books them as added, with a negative sign; they do not count as lost.
+ *  What several calls of a step name leaves together.
  *  @param leaves  [n] not 0 for these rows; solids stay whatever it says
  *  @return 0, or non-zero after a failure (the error is set) */
 MPS_API int mps_stage_remove(mps_stage *s, const int32_t *leaves);

@@ -144,8 +144,9 @@ int mps_stage_remove(mps_stage *s, const int32_t *leaves)
     const int64_t n = s->view->n;
     if (s->hook != MPS_POPULATE) return not_here(s, "mps_stage_remove");
     if (!leaves) return mps_stage_fail(s, "mps_stage_remove(): leaves is NULL");
-    if (mps__grow(h->context, (void **)&h->leaves, &h->leaves_capacity, 0,
-                  mps__room(n, h->leaves_capacity), 1) < 0) {
+    /* the rows of an earlier call in this step stay: then there is room already */
+    if (n > h->leaves_capacity && mps__grow(h->context, (void **)&h->leaves, &h->leaves_capacity, 0,
+                                            mps__room(n, h->leaves_capacity), 1) < 0) {
         h->no_memory = true;
         return 1;
     }
