@@ -2,6 +2,7 @@
 """Coupling from Python, and random calls."""
 from __future__ import annotations
 
+import copy
 import ctypes
 import os
 import random
@@ -54,6 +55,27 @@ class Coupled(unittest.TestCase):
         self.assertAlmostEqual(load.rest[1] / (-400 * 9.81), 1, delta=1e-3)
         with self.assertRaises(mps.ArgumentError):
             sim.load(centre=(np.nan, 0))
+
+    def test_records(self) -> None:
+        """An entry is read when it is asked for, once, and stays what it was when the library goes on."""
+        sim = full_box()
+        sim.watch_load(mass=True)
+        info = sim.step(1e-3)
+        load, kept = sim.load(), copy.copy(info)
+        self.assertIsInstance(load, mps.Record)
+        self.assertEqual((load.mass.shape, load.rest.shape, load.mass.dtype), ((6, 6), (6,), np.float64))
+        self.assertIs(load.mass, load.mass)
+        before = load.mass.copy()
+        limit = info.limit
+        sim.step(1e-3)
+        np.testing.assert_array_equal(load.mass, before)
+        self.assertIsInstance(limit, str)
+        self.assertEqual((kept.t, kept.limit, info.t), (info.t, limit, 1e-3))
+        self.assertIn("crossing_time", dir(info))
+        self.assertEqual(dict(info)["step"], 1)
+        self.assertFalse(hasattr(info, "struct_size"))
+        with self.assertRaisesRegex(AttributeError, "no entry 'tt'; there are ppe_iterations, step, t, "):
+            _ = info.tt
 
     def test_body(self) -> None:
         """A box of 100 kg/m on a spring, pushed: its own equation, with the load of its liquid."""

@@ -13,7 +13,7 @@ from . import _structs as T
 from . import errors
 from ._library import c
 from ._motion import degree
-from ._records import Calls, Record, copied, make, reals
+from ._records import Calls, Record, copied, make, reals, record
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -71,7 +71,7 @@ class Coupling:
         """Load on the tank in the last step: mps_load, with mass as a matrix [6, 6]. About the centre of rotation unless given."""
         load = make(T.mps_load)
         self.check(c.mps_load_get(self.handle, None if centre is None else reals(centre, 3), byref(load)))
-        return Record(load, mass=(6, 6))
+        return record(load)
 
     def body(self, free: str | Sequence[str], mass: float = 0.0, *, inertia: Any = 0.0, centre_of_mass: Any = (0.0, 0.0, 0.0),
              stiffness: Any = None, damping: Any = None, equilibrium: Mapping[str, float] | None = None, gravity: bool = True,
@@ -95,7 +95,7 @@ class Coupling:
             one.inertia[k if len(numbers) == 9 else 8] = number
 
         def call(_user: Any, t: float, state: Any, out: Any) -> int:
-            for k, value in enumerate(_six(load(t, Record(copied(state.contents))))):  # type: ignore[misc]
+            for k, value in enumerate(_six(load(t, record(copied(state.contents))))):  # type: ignore[misc]
                 out[k] = value
             return 0
 
@@ -110,7 +110,7 @@ class Coupling:
         """The body in the last step: mps_body_report, with mass as a matrix [6, 6]."""
         report = make(T.mps_body_report)
         self.check(c.mps_body_get(self.handle, byref(report)))
-        return Record(report, mass=(6, 6))
+        return record(report)
 
     def snapshot(self) -> Snapshot:
         """The present state in memory; restore() comes back to it, as often as wanted."""

@@ -12,7 +12,7 @@ from . import _numbers as N
 from . import _structs as T
 from . import errors
 from ._library import c
-from ._records import Calls, Record, make, reals
+from ._records import Calls, Record, make, reals, record
 
 DEGREES = {"x": N.MPS_MOVE_X, "y": N.MPS_MOVE_Y, "z": N.MPS_MOVE_Z, "rotate_x": N.MPS_ROTATE_X, "rotate_y": N.MPS_ROTATE_Y,
            "rotate_z": N.MPS_ROTATE_Z}
@@ -88,7 +88,7 @@ class Motion:
         """Values, rates and accelerations of the six degrees of freedom now."""
         state = make(T.mps_motion_state)
         self.check(c.mps_motion_state_get(self.handle, byref(state)))
-        return Record(state)
+        return record(state)
 
     def to_lab(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
         """Place in the lab of a point of the tank, and its velocity."""

@@ -97,40 +97,19 @@ def _entries(kind: type[ctypes.Structure]) -> dict[str, bool]:
     return {f[0]: f[1] is ctypes.c_char_p for f in kind._fields_ if f[0] not in ("struct_size", "reserved")}
 
 
-@functools.cache
-def _texts(kind: type[ctypes.Structure]) -> list[str]:
-    return [name for name, elsewhere in _entries(kind).items() if elsewhere]
-
-
 _NUMBERS = {ctypes.c_double: np.float64, ctypes.c_float: np.float32, ctypes.c_int32: np.int32, ctypes.c_int64: np.int64,
             ctypes.c_uint32: np.uint32, ctypes.c_uint8: np.uint8}
 
 
 class Record:
     """Values of a struct, by name; arrays are those of numpy. An entry is read when it is asked for: a program that looks at a few entries in
-    each step does not pay for all. The struct is the record's own: copy one that is not."""
+    each step does not pay for all. record() makes one."""
 
-    def __init__(self, struct: ctypes.Structure, **shapes: tuple[int, ...]) -> None:
-        own = self.__dict__
-        own["_struct"], own["_shapes"] = struct, shapes
-        for name in _texts(type(struct)):  # the library may free them
-            own[name] = text(getattr(struct, name))
+    _struct: ctypes.Structure
 
     def __getattr__(self, name: str) -> Any:
-        struct = self.__dict__.get("_struct")
-        allowed = _entries(type(struct)) if struct is not None else {}
-        if name not in allowed:
-            raise AttributeError(f"no entry '{name}'; there are {', '.join(allowed)}")
-        value = getattr(struct, name)
-        if isinstance(value, ctypes.Array):
-            if value._type_ is ctypes.c_char:
-                value = text(value.value)
-            else:
-                value = np.frombuffer(value, _NUMBERS[value._type_])
-                if name in self._shapes:
-                    value = value.reshape(self._shapes[name])
-        self.__dict__[name] = value
-        return value
+        struct = self.__dict__.get("_struct")  # a copy that is being made has none
+        raise AttributeError(f"no entry '{name}'; there are {', '.join(_entries(type(struct)) if struct is not None else ())}")
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *_entries(type(self._struct))]
@@ -140,6 +119,65 @@ class Record:
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {value}" for name, value in self)
+
+
+class _Entry:
+    """An entry of a record until it is asked for: then the record has its value, and Python looks there first. It must not define __set__."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+
+    def read(self, struct: ctypes.Structure) -> Any:
+        value = getattr(struct, self.name)
+        return text(value.value) if isinstance(value, ctypes.Array) and value._type_ is ctypes.c_char else value
+
+    def __get__(self, one: Record | None, _kind: type | None = None) -> Any:
+        if one is None:
+            return self
+        value = one.__dict__[self.name] = self.read(one._struct)
+        return value
+
+
+class _Numbers(_Entry):
+    """An entry that is an array of numbers, in the memory of the struct."""
+
+    def __init__(self, name: str, place: int, kind: Any, shape: tuple[int, ...]) -> None:
+        super().__init__(name)
+        self.place, self.kind, self.shape = place, kind, shape
+
+    def __get__(self, one: Record | None, _kind: type | None = None) -> Any:
+        if one is None:
+            return self
+        value = one.__dict__[self.name] = np.ndarray(self.shape, self.kind, one._struct, self.place)
+        return value
+
+
+def _entry(kind: type[ctypes.Structure], name: str, held: Any, shape: tuple[int, ...] | None) -> _Entry:
+    if not (isinstance(held, type) and issubclass(held, ctypes.Array) and held._type_ in _NUMBERS):
+        return _Entry(name)
+    return _Numbers(name, getattr(kind, name).offset, np.dtype(_NUMBERS[held._type_]), shape or (held._length_,))
+
+
+_SHAPES = {("mps_load", "mass"): (6, 6), ("mps_body_report", "mass"): (6, 6)}
+_kinds: dict[type[ctypes.Structure], tuple[type[Record], list[str]]] = {}
+
+
+def _kind(kind: type[ctypes.Structure]) -> tuple[type[Record], list[str]]:
+    """Class of the records of a struct, and its texts that live elsewhere."""
+    entries = {f[0]: _entry(kind, f[0], f[1], _SHAPES.get((kind.__name__, f[0]))) for f in kind._fields_ if f[0] in _entries(kind)}
+    found = _kinds[kind] = type("Record", (Record,), entries), [name for name, elsewhere in _entries(kind).items() if elsewhere]
+    return found
+
+
+def record(struct: ctypes.Structure) -> Record:
+    """The record of a struct, which is the record's own from now on: copy one that is not."""
+    kind = type(struct)
+    made, texts = _kinds.get(kind) or _kind(kind)
+    one = made()
+    one._struct = struct
+    for name in texts:  # the library may free them
+        one.__dict__[name] = text(getattr(struct, name))
+    return one
 
 
 class Calls:

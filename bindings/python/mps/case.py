@@ -18,7 +18,7 @@ from . import _numbers as N
 from . import _structs as T
 from . import errors
 from ._library import c
-from ._records import Calls, Record, coded, make, text
+from ._records import Calls, Record, coded, make, record, text
 from .simulation import Simulation
 
 
@@ -96,7 +96,7 @@ class Case:
         for k in range(c.mps_case_message_count(self._case)):
             message = make(T.mps_case_message)
             c.mps_case_message_get(self._case, k, byref(message))
-            found.append(Record(message))
+            found.append(record(message))
         return found
 
     @property

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ._library import c
-from ._records import Record, make
+from ._records import Record, make, record
 from ._structs import mps_probe_info
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ class Probe:
         """What it is, and the face that it reads: mps_probe_info."""
         info = make(mps_probe_info)
         self._sim.check(c.mps_probe_info_get(self._sim.handle, self.number, byref(info)))
-        return Record(info)
+        return record(info)
 
     def read(self) -> np.ndarray:
         """Its values now, [size]; with an average the mean up to now."""

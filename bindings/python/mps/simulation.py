@@ -17,7 +17,7 @@ from ._couple import Coupling
 from ._geometry import Geometry
 from ._library import c
 from ._motion import Motion
-from ._records import Calls, Record, coded, copied, make, pointer, text
+from ._records import Calls, Record, coded, copied, make, pointer, record, text
 from .lease import Lease
 from .model import Model, register
 from .probe import Probe
@@ -245,13 +245,13 @@ class Simulation(Geometry, Motion, Coupling):
         """One step of at most dt_max [s]; returns mps_step_info."""
         info = make(T.mps_step_info)
         self.check(c.mps_step(self.handle, dt_max, byref(info)))
-        return Record(info)
+        return record(info)
 
     def run(self, t_end: float, monitor: Callable[[Simulation, Record], object] | None = None) -> bool:
         """Step until t_end [s]. monitor(sim, info) is called after each step; it stops the run by returning True.
         Returns whether t_end was reached."""
         def call(_user: Any, _sim: Any, info: Any) -> int:
-            return 1 if monitor is not None and monitor(self, Record(copied(info.contents))) else 0
+            return 1 if monitor is not None and monitor(self, record(copied(info.contents))) else 0
 
         # a callback without a monitor too: it lets Python see Ctrl-C
         function = T.mps_monitor_fn(self._calls.guard(call, 1))
@@ -273,14 +273,14 @@ class Simulation(Geometry, Motion, Coupling):
         """Energies, volume, mass, and the budget: mps_energy."""
         energy = make(T.mps_energy)
         self.check(c.mps_energy_get(self.handle, byref(energy)))
-        return Record(energy)
+        return record(energy)
 
     @property
     def momentum(self) -> Record:
         """Momentum and what changed it: mps_momentum."""
         momentum = make(T.mps_momentum)
         self.check(c.mps_momentum_get(self.handle, byref(momentum)))
-        return Record(momentum)
+        return record(momentum)
 
     # ---- files
 
