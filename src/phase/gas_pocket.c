@@ -370,7 +370,10 @@ static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
     mps__pocket_faces f = {.region = s->data[BOOK_REGION],
                            .velocity = s->data[BOOK_VELOCITY],
-                           .correction = s->data[BOOK_CORRECTION]};
+                           .correction = s->data[BOOK_CORRECTION],
+                           .aside = s->view->setting[MPS__POCKET_ULLAGE] > 0
+                                        ? -1
+                                        : (int32_t)head->open}; /* the ambient does no work */
     if (mps__pocket_look(s, &f)) return 1;
     double *flux = mps_stage_scratch(s, f.voids.count + 1);
     double *fluid = mps_stage_scratch(s, f.voids.count + 1);

@@ -139,10 +139,17 @@ MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_face
     for (int k = 0; k < PAIR; k++) {
         double size = 0;
         for (int d = 0; d < dim; d++) size += normal[k][d] * normal[k][d];
-        sums[2 * k + 1] += sqrt(size);
+        if (size > 0) sums[2 * k + 1] += sqrt(size);
     }
 }
 MPS_SUMS(add_volumes, add_volume, mps__pocket_faces)
+
+/* Components whose sums one loop over the rows finds: no more than there are, each costs in all rows. */
+static int32_t batch_of(const mps__pocket_faces *f)
+{
+    const int32_t left = f->voids.count - f->from;
+    return left < PAIR ? left : PAIR;
+}
 
 void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
 {
@@ -150,8 +157,9 @@ void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
     const double area = area_of(v), cell = area * v->side;
     for (f->from = 0; f->from < v->count; f->from += PAIR) {
         double sums[2 * PAIR];
-        mps_stage_sum(s, 2 * PAIR, &add_volumes, f, sums);
-        for (int32_t k = 0; k < PAIR && f->from + k < v->count; k++) {
+        const int32_t batch = batch_of(f);
+        mps_stage_sum(s, 2 * batch, &add_volumes, f, sums);
+        for (int32_t k = 0; k < batch; k++) {
             const double cells = v->size[f->from + k] * cell;
             const double whole = cells + area * (sums[2 * k] - 0.5 * s->view->dp * sums[2 * k + 1]);
             volume[f->from + k] = mps_larger(whole, cells);
@@ -261,7 +269,7 @@ MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces 
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         int32_t axis;
-        if (label < 0 || label >= PAIR) continue;
+        if (label < 0 || label >= PAIR || f->voids.face_label[face] == f->aside) continue;
         direction(&f->voids, face, &axis);
         const int64_t j = surface_of(dim, v, f, i, axis);
         if (j < 0) continue;
@@ -282,8 +290,9 @@ void mps__pocket_fluxes(mps_stage *s, mps__pocket_faces *f, double *flux, double
     f->row_volume = mps__pocket_power(s->view->dp, f->voids.dim) / area;
     for (f->from = 0; f->from < f->voids.count; f->from += PAIR) {
         double sums[2 * PAIR];
-        mps_stage_sum(s, 2 * PAIR, &add_fluxes, f, sums);
-        for (int32_t k = 0; k < PAIR && f->from + k < f->voids.count; k++) {
+        const int32_t batch = batch_of(f);
+        mps_stage_sum(s, 2 * batch, &add_fluxes, f, sums);
+        for (int32_t k = 0; k < batch; k++) {
             flux[f->from + k] = area * sums[2 * k];
             fluid[f->from + k] = area * sums[2 * k + 1];
         }

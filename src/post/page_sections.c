@@ -133,41 +133,61 @@ static void item(FILE *out, const page_run *r, double value, double all, const c
     "particles in order, and the liquid's own viscosity in one sum. In a tank of metres the " \
     "viscosity of water, LNG or LPG is a small part of it."
 
+static const struct budget_part {
+    const char *name;
+    bool change;
+    bool comes;          /* what it counts is on the side of what came */
+    const char *text[2]; /* of positive and negative values */
+} budget_parts[] = {
+    {"wall_work_momentum", false, true, {"came from the walls.", "went to the walls."}},
+    {"added", false, true, {"came with new particles.", "left with lost particles."}},
+    {"ke",
+     true,
+     false,
+     {"more is in motion than at the start.", "less is in motion than at the start."}},
+    {"pe",
+     true,
+     false,
+     {"is stored because the liquid stands higher than at the start.",
+      "was set free because the liquid stands lower than at the start."}},
+    {"viscous", false, false, {FRICTION, "came from friction in the liquid: an error."}},
+    {"friction", false, false, {"was taken by layers at walls.", "came from layers at walls."}},
+    {"layers",
+     true,
+     false,
+     {"more is in layers at side walls.", "less is in layers at side walls."}},
+    {"plugins",
+     false,
+     false,
+     {"was taken by models of plug-ins.", "came from models of plug-ins."}},
+    {"collision", false, false, {"was taken by collisions of particles.", "came from collisions."}},
+    {"shift",
+     false,
+     false,
+     {"was taken by the shift that keeps particles even.", "came from the shift."}},
+    {"numerical",
+     false,
+     false,
+     {"was lost without a physical reason (numerical).",
+      "was gained without a physical reason (numerical)."}},
+};
+
+/* A part as it stands in the list. */
+static double part_of(const page_run *r, const struct budget_part *p)
+{
+    return p->change ? change_of(r, p->name) : last_of(r, p->name);
+}
+
 void mps__page_budget(FILE *out, const page_run *r)
 {
-    static const struct {
-        const char *name;
-        bool change;
-        const char *text[2]; /* of positive and negative values */
-    } part[] = {
-        {"wall_work_momentum", false, {"came from the walls.", "went to the walls."}},
-        {"added", false, {"came with new particles.", "left with lost particles."}},
-        {"ke",
-         true,
-         {"more is in motion than at the start.", "less is in motion than at the start."}},
-        {"pe",
-         true,
-         {"is stored because the liquid stands higher than at the start.",
-          "was set free because the liquid stands lower than at the start."}},
-        {"viscous", false, {FRICTION, "came from friction in the liquid: an error."}},
-        {"friction", false, {"was taken by layers at walls.", "came from layers at walls."}},
-        {"layers", true, {"more is in layers at side walls.", "less is in layers at side walls."}},
-        {"plugins", false, {"was taken by models of plug-ins.", "came from models of plug-ins."}},
-        {"collision", false, {"was taken by collisions of particles.", "came from collisions."}},
-        {"shift",
-         false,
-         {"was taken by the shift that keeps particles even.", "came from the shift."}},
-        {"numerical",
-         false,
-         {"was lost without a physical reason (numerical).",
-          "was gained without a physical reason (numerical)."}},
-    };
-    double all = 0;
-    const int count = sizeof part / sizeof part[0];
+    static const char *const gas[2] = {"came from trapped gas.", "went to trapped gas."};
+    double all = 0, rest = 0;
+    const int count = sizeof budget_parts / sizeof budget_parts[0];
     if (!isfinite(last_of(r, "numerical"))) return;
     for (int k = 0; k < count; k++) {
-        const double v = part[k].change ? change_of(r, part[k].name) : last_of(r, part[k].name);
+        const double v = part_of(r, &budget_parts[k]);
         if (isfinite(v)) all = fmax(all, fabs(v));
+        rest += budget_parts[k].comes ? -v : v;
     }
     fputs(
         "<section id=\"budget\" aria-labelledby=\"budget-title\">\n<h2 id=\"budget-title\">Where "
@@ -176,10 +196,11 @@ void mps__page_budget(FILE *out, const page_run *r)
         "<ul>\n",
         out);
     for (int k = 0; k < count; k++) {
-        const double v = part[k].change ? change_of(r, part[k].name) : last_of(r, part[k].name);
-        const char *text[2] = {part[k].text[0], part[k].text[1]};
+        const double v = part_of(r, &budget_parts[k]);
+        const char *text[2] = {budget_parts[k].text[0], budget_parts[k].text[1]};
         item(out, r, v, all, text);
     }
+    item(out, r, rest, all, (const char *[2]){gas[0], gas[1]}); /* no column has it; 0 without */
     fputs("</ul>\n<p class=\"quiet\">What came is what is stored plus what was taken or lost; "
           "rounding "
           "aside, the sum is exact.</p></div>\n<div class=\"charts\" "

@@ -347,7 +347,7 @@ static void stairs(void **state)
     ASSERT_OK(sim, mps_run(sim, 0.063, note_rest, &found));
     print_message("bubble of 8 dp in 2-D, two periods: rest of the energy at most %.3f\n",
                   found.most);
-    ASSERT_NEAR(found.most, 0, 0.1);
+    ASSERT_NEAR(found.most, 0, 0.075);
     mps_sim_destroy(sim);
 }
 

@@ -159,7 +159,8 @@ function drawMarks() {
         if (p) out.push(`<circle class="ring" cx="${p[0]}" cy="${p[1]}" r="9"/>`);
         const beside = values > 2 && value[k + 2 * data.count] > 0 ? `, beside pocket ${value[k + 2 * data.count]}` : "";
         const name = state.phase[state.picked] === 255 ? "Part of a body" : `Particle ${state.ids[state.picked]}`;
-        byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}${beside}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
+        const less = value[k] === 1 ? " or less" : ""; // suction in liquid or gas is below the scale
+        byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}${less}${beside}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
     } else byId("picked").textContent = "";
     svg.setAttribute("viewBox", `0 0 ${view.canvas.width / scale} ${view.canvas.height / scale}`); // on paper it has another size
     svg.innerHTML = out.join("");
