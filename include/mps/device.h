@@ -55,6 +55,9 @@ typedef struct mps_launch {
     void (*run)(const void *host, int64_t begin, int64_t end, mps_exact *sums, double *maxima);
     /** First argument of `run`. */
     const void *host;
+    /** NULL, or a number of the device. If it is not 0 when the rows are about to run, nothing
+     *  reads any more what they would write: a device may leave them out. */
+    const int64_t *unless;
 } mps_launch;
 
 /** A device. A function must not be NULL unless its comment allows it. */
@@ -89,6 +92,10 @@ typedef struct mps_device_ops {
      *  @param sum  [launch->sums] terms are added to what they hold before
      *  @param maximum  [launch->maxima] not below what they hold before */
     int (*values)(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
+    /** Run sums and maxima and do not wait for them. Those of the rows alone, nothing before, go to
+     *  memory of the device: the sums, then the maxima, -INFINITY where there is none.
+     *  @param to  [launch->sums] of mps_exact, then [launch->maxima] of double */
+    int (*gather)(void *self, const mps_launch *launch, void *to);
     /** Wait for the work of all calls before. */
     int (*wait)(void *self);
     /** Why a function failed, one line. NULL: not known. */

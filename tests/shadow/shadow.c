@@ -230,13 +230,23 @@ static void outdated(void *self, void *array, uint64_t bytes, uint32_t number)
 
 /* ---- loops ---- */
 
+static uint32_t slot_of(const char *file, const char *name)
+{
+    uint32_t hash = 0;
+    for (const char *c = file; *c; c++) hash = hash * 31 + (unsigned char)*c;
+    for (const char *c = name; *c; c++) hash = hash * 31 + (unsigned char)*c;
+    return hash % SHADOW_LOOPS;
+}
+
+int32_t shadow_seen(const shadow *s, const char *file, const char *name)
+{
+    return s->seen[slot_of(file, name)];
+}
+
 /* Whether the memory of the handle is closed for a launch: for the first ones of a loop, because closing takes longer than most loops. */
 static bool closes(shadow *s, const mps_launch *l)
 {
-    uint32_t hash = 0;
-    for (const char *c = l->file; *c; c++) hash = hash * 31 + (unsigned char)*c;
-    for (const char *c = l->name; *c; c++) hash = hash * 31 + (unsigned char)*c;
-    return s->seen[hash % SHADOW_LOOPS]++ < SHADOW_CLOSED;
+    return s->seen[slot_of(l->file, l->name)]++ < SHADOW_CLOSED;
 }
 
 /* A host address among the arguments would be followed on a device, to nowhere. Here it finds closed memory. */
@@ -267,6 +277,23 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     return 0;
 }
 
+static int gather(void *self, const mps_launch *l, void *to)
+{
+    shadow *s = self;
+    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
+    double maximum[MPS_PARALLEL_VALUES];
+    const int k = room_of(s, to);
+    assert_true(k >= 0);
+    for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
+    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return fails(s);
+    run(s, l, sum, maximum);
+    protect(s, k, PROT_READ | PROT_WRITE);
+    memcpy(to, sum, (size_t)l->sums * sizeof *sum);
+    memcpy((mps_exact *)to + l->sums, maximum, (size_t)l->maxima * sizeof *maximum);
+    protect(s, k, PROT_NONE);
+    return 0;
+}
+
 static int wait_for(void *self)
 {
     (void)self;
@@ -293,6 +320,7 @@ void shadow_attach(shadow *s, mps_sim *sim)
                           .copy = copy,
                           .rows = rows,
                           .values = values,
+                          .gather = gather,
                           .wait = wait_for,
                           .failure = failure,
                           .outdated = outdated}};
