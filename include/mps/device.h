@@ -55,6 +55,9 @@ typedef struct mps_launch {
     void (*run)(const void *host, int64_t begin, int64_t end, mps_exact *sums, double *maxima);
     /** First argument of `run`. */
     const void *host;
+    /** NULL, or a number of the device. If it is not 0 when the rows are about to run, nothing
+     *  reads any more what they would write: a device may leave them out. */
+    const int64_t *unless;
 } mps_launch;
 
 /** A device. A function must not be NULL unless its comment allows it. */

@@ -6,7 +6,6 @@
 #include <string.h>
 
 enum {
-    GROUP = 128, /* threads of a loop */
     PARTS = 256, /* groups that join the terms of a value, at most */
     VALUES = 64  /* of a launch, at most */
 };
@@ -61,8 +60,8 @@ static int start(cuda *c, cuda_handle kernel, const char *name, void *given, siz
         argument = &c->arguments.begin;
     }
     if (!error)
-        error = d->launch(kernel, (unsigned)groups, 1, 1, GROUP, 1, 1, 0, c->stream, &argument,
-                          NULL);
+        error = d->launch(kernel, (unsigned)groups, 1, 1, MPS__LAUNCH_GROUP, 1, 1, 0, c->stream,
+                          &argument, NULL);
     return cuda_check(&c->text, d, error, name);
 }
 
@@ -83,14 +82,14 @@ static int run(cuda *c, const mps_launch *l, mps__launch head)
     memcpy(given, &head, sizeof head);
     if (view > 0) memcpy(given + sizeof head, l->view, view);
     if (l->bytes > 0) memcpy(given + sizeof head + view, l->fields, l->bytes);
-    return start(c, kernel, name, given, bytes, (l->n + GROUP - 1) / GROUP);
+    return start(c, kernel, name, given, bytes, (l->n + MPS__LAUNCH_GROUP - 1) / MPS__LAUNCH_GROUP);
 }
 
 int cuda_rows(void *self, const mps_launch *l)
 {
     cuda *c = self;
     if (cuda_enter(c)) return 1;
-    const int failed = run(c, l, (mps__launch){.n = l->n});
+    const int failed = run(c, l, (mps__launch){.n = l->n, .unless = l->unless});
     cuda_leave(c);
     return failed;
 }
@@ -135,11 +134,26 @@ static int join_all(cuda *c, const mps_launch *l, const double *terms, const res
 {
     const int64_t n = l->n, parts = parts_of(n);
     const double *maxima = terms + l->sums * n;
-    const mps__launch_join
-        add = {.n = n, .parts = parts, .terms = terms, .out = r->sum_parts},
-        add_all = {.n = parts, .parts = 1, .sums = r->sum_parts, .out = r->sum},
-        raise = {.n = n, .parts = parts, .terms = maxima, .out = r->maximum_parts},
-        raise_all = {.n = parts, .parts = 1, .terms = r->maximum_parts, .out = r->maximum};
+    const mps__launch_join add = {.n = n,
+                                  .parts = parts,
+                                  .terms = terms,
+                                  .out = r->sum_parts,
+                                  .unless = l->unless},
+                           add_all = {.n = parts,
+                                      .parts = 1,
+                                      .sums = r->sum_parts,
+                                      .out = r->sum,
+                                      .unless = l->unless},
+                           raise = {.n = n,
+                                    .parts = parts,
+                                    .terms = maxima,
+                                    .out = r->maximum_parts,
+                                    .unless = l->unless},
+                           raise_all = {.n = parts,
+                                        .parts = 1,
+                                        .terms = r->maximum_parts,
+                                        .out = r->maximum,
+                                        .unless = l->unless};
     if (l->sums > 0 &&
         (join(c, "mpsk_sums__add", add, l->sums) || join(c, "mpsk_sums__join", add_all, l->sums)))
         return 1;
@@ -182,15 +196,18 @@ static int values(cuda *c, const mps_launch *l, void *to, results *r)
         r->maximum = (double *)(r->sum + l->sums);
     }
     double *terms = (double *)(uintptr_t)c->terms.begin;
-    const mps__launch head = {
-        .n = l->n, .count = count, .first = l->sums > 0 ? 0 : -INFINITY, .terms = terms};
+    const mps__launch head = {.n = l->n,
+                              .count = count,
+                              .first = l->sums > 0 ? 0 : -INFINITY,
+                              .terms = terms,
+                              .unless = l->unless};
     return run(c, l, head) || join_all(c, l, terms, r);
 }
 
 int cuda_values(void *self, const mps_launch *l, mps_exact *sum, double *maximum)
 {
     cuda *c = self;
-    results r;
+    results r = {.bytes = 0};
     if (cuda_enter(c)) return 1;
     const int failed = values(c, l, NULL, &r) || fetch(c, l, &r, sum, maximum);
     cuda_leave(c);
@@ -200,7 +217,7 @@ int cuda_values(void *self, const mps_launch *l, mps_exact *sum, double *maximum
 int cuda_gather(void *self, const mps_launch *l, void *to)
 {
     cuda *c = self;
-    results r;
+    results r = {.bytes = 0};
     if (cuda_enter(c)) return 1;
     const int failed = values(c, l, to, &r);
     cuda_leave(c);

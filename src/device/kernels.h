@@ -25,18 +25,24 @@
 #define MPSK__JOIN(unit, name) mpsk_##unit##__##name
 #define MPSK__NAME(unit, name) MPSK__JOIN(unit, name)
 
+_Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
+
+/* Whether nothing reads any more what a kernel would write. */
+#define MPSK__LEFT_OUT(given) ((given).unless && *(given).unless)
+
 /* Both dimensions; `work` is what a row does, with dim_ and i_. */
 #define MPSK__BOTH(name, work)                               \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_3), name, 3, work)
-#define MPSK__ONE(kernel, name, dimension, work) \
-    MPSK__KERNEL(kernel, name##_given)           \
-    {                                            \
-        enum { dim_ = dimension };               \
-        const int64_t i_ = mps__thread_row();    \
-        MPSK__GIVEN(name##_given)                \
-        if (i_ >= given_->launch.n) return;      \
-        work                                     \
+#define MPSK__ONE(kernel, name, dimension, work)    \
+    MPSK__KERNEL(kernel, name##_given)              \
+    {                                               \
+        enum { dim_ = dimension };                  \
+        const int64_t i_ = mps__thread_row();       \
+        MPSK__GIVEN(name##_given)                   \
+        if (i_ >= given_->launch.n) return;         \
+        if (MPSK__LEFT_OUT(given_->launch)) return; \
+        work                                        \
     }
 
 /* Values of a row into the terms. The loop has a constant end, so that the values stay in registers. */
@@ -87,6 +93,19 @@
                                                                                      : -INFINITY; \
                row(dim_, &given_->fields, i_, own_); MPSK__STORE((sums) + (maxima)))              \
     static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
+
+#undef MPS__GROUP
+#define MPS__GROUP(name, whole, together, type)                                         \
+    typedef struct name##_given {                                                       \
+        mps__launch launch;                                                             \
+        type fields;                                                                    \
+    } name##_given;                                                                     \
+    MPSK__KERNEL(MPSK__NAME(MPS_UNIT, name), name##_given)                              \
+    {                                                                                   \
+        MPSK__GIVEN(name##_given)                                                       \
+        together(&given_->fields, mps__thread_lane(), !MPSK__LEFT_OUT(given_->launch)); \
+    }                                                                                   \
+    static const mps__loop name = {#name, sizeof(type), NULL};
 
 /* What the host has of its own for a loop is for its vectors. */
 #undef MPS__LOOP_CHEAP

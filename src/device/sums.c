@@ -17,6 +17,12 @@ static inline __attribute__((always_inline)) place place_of(const mps__launch_jo
                    .lane = lane};
 }
 
+/* Terms to join. None if the results are not read; no thread returns before the others, for compilers of OpenCL do not take waits under a condition. */
+static inline __attribute__((always_inline)) int64_t count_of(const mps__launch_join *g)
+{
+    return MPSK__LEFT_OUT(*g) ? 0 : g->n;
+}
+
 static inline int64_t value_of(const mps__launch_join *g)
 {
     return mps__thread_group() / g->parts;
@@ -40,9 +46,10 @@ MPSK__KERNEL(mpsk_sums__add, mps__launch_join)
 {
     MPSK__GIVEN(mps__launch_join)
     const place at = place_of(given_);
+    const int64_t n = count_of(given_);
     const double *terms = given_->terms + value_of(given_) * given_->n;
     mps_exact own = {{0}, 0, 0};
-    for (int64_t i = at.begin; i < given_->n; i += at.step) mps_exact_add(&own, 1, &terms[i]);
+    for (int64_t i = at.begin; i < n; i += at.step) mps_exact_add(&own, 1, &terms[i]);
     JOIN_GROUP(added, own, given_->out)
 }
 
@@ -51,9 +58,10 @@ MPSK__KERNEL(mpsk_sums__join, mps__launch_join)
 {
     MPSK__GIVEN(mps__launch_join)
     const place at = place_of(given_);
+    const int64_t n = count_of(given_);
     const mps_exact *sums = given_->sums + value_of(given_) * given_->n;
     mps_exact own = {{0}, 0, 0};
-    for (int64_t i = at.begin; i < given_->n; i += at.step) mps_exact_join(&own, &sums[i]);
+    for (int64_t i = at.begin; i < n; i += at.step) mps_exact_join(&own, &sums[i]);
     JOIN_GROUP(joined, own, given_->out)
 }
 
@@ -63,9 +71,10 @@ MPSK__KERNEL(mpsk_sums__raise, mps__launch_join)
 {
     MPSK__GIVEN(mps__launch_join)
     const place at = place_of(given_);
+    const int64_t n = count_of(given_);
     const double *terms = given_->terms + value_of(given_) * given_->n;
     double own = -INFINITY;
-    for (int64_t i = at.begin; i < given_->n; i += at.step)
+    for (int64_t i = at.begin; i < n; i += at.step)
         if (terms[i] > own) own = terms[i];
     raised[at.lane] = own;
     for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2) {

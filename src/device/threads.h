@@ -54,7 +54,7 @@ static inline int64_t mps__thread_row(void)
 
 static inline __attribute__((always_inline)) void mps__thread_wait(void)
 {
-    mps__cl_barrier(1); /* of shared memory */
+    mps__cl_barrier(3); /* of shared memory and of all */
 }
 #endif
 

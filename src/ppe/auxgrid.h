@@ -184,8 +184,7 @@ typedef struct mps__grid_away {
     mps__grid_adding there_list[MPS__GRID_LEVELS]; /* there */
     double *rest[MPS__GRID_LEVELS];                /* [red] residuals, there */
     double *inverse;                               /* of the diagonal, there */
-    mps__grid *here;
-    mps__grid grid; /* with the arrays there that a cycle uses */
+    mps__grid grid;                                /* with the arrays there that a cycle uses */
 } mps__grid_away;
 
 static inline bool mps__grid_many(const mps__grid *g)
@@ -287,9 +286,15 @@ int mps__grid_send(mps__grid_away *a, mps__grid *g, mps__device *d, const double
 void mps__grid_leave(mps__grid_away *a);
 /* Right side of level k from the residuals of the finer one. */
 void mps__grid_gather(const mps__grid_away *a, int k);
-/* The last grid of the host, with the right side from the device; its solution to the device. */
-mps__grid_level *mps__grid_last_come(const mps__grid_away *a);
-void mps__grid_last_go(const mps__grid_away *a);
+
+/* ---- the last grid (auxgrid_last.c) ---- */
+
+/* Factors of its matrix. */
+void mps__grid_factorise_last(mps__grid *g);
+/* The upper triangle, which nobody reads on the host, takes the lower one: threads of a device read along rows. */
+void mps__grid_mirror_last(mps__grid *g);
+/* Its x from its b. */
+void mps__grid_solve_last(const mps__grid *g);
 
 /* ---- cycle (auxgrid_cycle.c) ---- */
 

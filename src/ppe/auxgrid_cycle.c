@@ -6,62 +6,6 @@
 #include <string.h>
 
 enum { SWEEPS = 2 };
-static const double no_level =
-    1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
-
-/* ---- direct solution of the last grid ---- */
-
-static void fill_matrix(mps__grid *g, const mps__grid_level *l)
-{
-    int sides = 2 * g->dim;
-    memset(g->factor, 0, (size_t)(l->cells * l->cells) * sizeof *g->factor);
-    for (int64_t c = 0; c < l->cells; c++) {
-        double *row = g->factor + c * l->cells;
-        row[c] = l->shift[c];
-        for (int64_t s = c * sides; s < (c + 1) * sides; s++) {
-            row[c] += (double)l->link[s];
-            row[l->next[s]] -= (double)l->link[s];
-        }
-    }
-}
-
-/* L D L' in place of the lower triangle. A component without a level keeps one pivot of zero: its last cell is held. */
-static void factorise_last(mps__grid *g, const mps__grid_level *l)
-{
-    int64_t n = l->cells;
-    fill_matrix(g, l);
-    for (int64_t i = 0; i < n; i++) {
-        double *row = g->factor + i * n, whole = row[i], d = whole;
-        for (int64_t j = 0; j < i; j++) {
-            const double *other = g->factor + j * n;
-            double s = row[j]; /* becomes L_ij D_j */
-            for (int64_t k = 0; k < j; k++) s -= row[k] * other[k];
-            row[j] = s;
-        }
-        for (int64_t j = 0; j < i; j++) {
-            double s = row[j];
-            row[j] *= g->pivot[j];
-            d -= s * row[j];
-        }
-        g->pivot[i] = d > no_level * whole ? 1 / d : 0;
-    }
-}
-
-static void solve_last(const mps__grid *g, mps__grid_level *l)
-{
-    int64_t n = l->cells;
-    for (int64_t i = 0; i < n; i++) {
-        const double *row = g->factor + i * n;
-        double s = l->b[i];
-        for (int64_t j = 0; j < i; j++) s -= row[j] * l->x[j];
-        l->x[i] = s;
-    }
-    for (int64_t i = 0; i < n; i++) l->x[i] *= g->pivot[i];
-    for (int64_t i = n - 1; i >= 0; i--) {
-        const double *row = g->factor + i * n;
-        for (int64_t j = 0; j < i; j++) l->x[j] -= row[j] * l->x[i];
-    }
-}
 
 bool mps__grid_factorise(mps__grid *g)
 {
@@ -74,7 +18,7 @@ bool mps__grid_factorise(mps__grid *g)
             l->inverse[c] = d > 0 ? 1 / d : 0;
         }
     }
-    factorise_last(g, &g->level[g->levels - 1]);
+    mps__grid_factorise_last(g);
     return true;
 }
 
@@ -318,8 +262,7 @@ static void cycle_whole(mps__grid *g, int first)
         else
             restrict_residual(g, &g->level[k], &g->level[k + 1]);
     }
-    solve_last(g, g->away ? mps__grid_last_come(g->away) : &g->level[last]);
-    if (g->away) mps__grid_last_go(g->away);
+    mps__grid_solve_last(g);
     for (int k = last - 1; k >= first; k--) {
         correct(g, &g->level[k], &g->level[k + 1]);
         sweep_up(g, &g->level[k]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* auxgrid on a device: the host makes the grids, and what a cycle reads of them goes to the device in one block of its memory. A coarse cell
- * gathers there what finer ones add to it on the host, in the same order. The last grid is solved on the host. */
+ * gathers there what finer ones add to it on the host, in the same order. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <string.h>
@@ -124,6 +124,9 @@ static void send_all(sending *s, const mps__grid *g, mps__grid_away *a, const do
     a->grid.start = send(s, g->start, (size_t)g->turns + 1, sizeof *g->start);
     a->grid.parts = send(s, NULL, (size_t)(l->cells + 1) * all, sizeof(double));
     a->inverse = send(s, inverse, (size_t)l->points, sizeof *inverse);
+    l = &g->level[g->levels - 1];
+    a->grid.factor = send(s, g->factor, (size_t)(l->cells * l->cells), sizeof *g->factor);
+    a->grid.pivot = send(s, g->pivot, (size_t)l->cells, sizeof *g->pivot);
 }
 
 static bool reserve(mps__grid_away *a, mps__device *d, size_t bytes)
@@ -141,10 +144,10 @@ int mps__grid_send(mps__grid_away *a, mps__grid *g, mps__device *d, const double
     sending s = {.device = d};
     a->there = false;
     if (!list_adding(a, g)) return MPS_PPE_NOMEM;
+    mps__grid_mirror_last(g);
     a->grid = *g;
     a->grid.parallel = &d->parallel;
     a->grid.away = a;
-    a->here = g;
     send_all(&s, g, a, inverse);
     if (!reserve(a, d, s.used)) return MPS_PPE_NOMEM;
     s = (sending){.device = d, .base = a->room};
@@ -184,19 +187,4 @@ void mps__grid_gather(const mps__grid_away *a, int k)
     const mps__grid_level *l = &a->grid.level[k];
     mps__loop_run_cheap(a->grid.parallel, &gather_rows, MPS__ANY_DIM, l->cells,
                         &(gathering){a->there_list[k], a->rest[k - 1], l->b});
-}
-
-mps__grid_level *mps__grid_last_come(const mps__grid_away *a)
-{
-    const int last = a->grid.levels - 1;
-    mps__grid_level *l = &a->here->level[last];
-    mps__device_download(a->device, l->b, a->grid.level[last].b, (size_t)l->cells * sizeof *l->b);
-    return l;
-}
-
-void mps__grid_last_go(const mps__grid_away *a)
-{
-    const int last = a->grid.levels - 1;
-    const mps__grid_level *l = &a->here->level[last];
-    mps__device_upload(a->device, a->grid.level[last].x, l->x, (size_t)l->cells * sizeof *l->x);
 }

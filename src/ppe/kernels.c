@@ -88,6 +88,13 @@ double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, doubl
     return mps_exact_value(&sum);
 }
 
+void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y, mps__gathered *to)
+{
+    mps__values_gather(
+        mps__device_of(problem->parallel), &multiply_rows, MPS__ANY_DIM, problem->n,
+        &(product){problem->row, problem->col, problem->val, problem->diagonal, x, y}, to);
+}
+
 bool mps__rows_nonnegative(const mps_ppe_problem *problem)
 {
     return !(mps__vectors_largest(problem, problem->diagonal, -1, 0) > 0);

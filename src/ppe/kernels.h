@@ -30,6 +30,9 @@ void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argume
 
 /* y = A x. @return x'y */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);
+/* The same on the device of the problem's parallel-for, without waiting for the sum. */
+void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y,
+                      mps__gathered *to);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 

@@ -2,6 +2,7 @@
 /* Driver of the iterative solvers. Each pass solves A d = b - A p from d = 0 and adds d to p. A SUNDIALS solver stops on
  * its own, recursive residual; passes go on until the true one is small in both norms. */
 #include "krylov.h"
+#include "cg.h"
 #include "kernels.h"
 #include <math.h>
 
@@ -15,6 +16,7 @@ typedef struct krylov {
     SUNLinearSolver solver;
     N_Vector x, b, stop;
     double *start, *residual, *correction, *inner; /* [capacity] */
+    void *room;                                    /* of the run on a device; NULL: on the host */
     mps__component *sums;                          /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
@@ -78,7 +80,15 @@ static void drop_arrays(krylov *k)
         mps__give(&k->space.arrays, *all[i]);
         *all[i] = NULL;
     }
+    mps__give(&k->space.arrays, k->room);
+    k->room = NULL;
     k->space.capacity = 0;
+}
+
+/* Whether a problem is solved by conjugate gradients of a device. */
+static bool on_device(const krylov *k)
+{
+    return k->kind->symmetric && mps__device_of(k->space.parallel);
 }
 
 /* Arrays of this length, here and in all vectors. */
@@ -94,6 +104,7 @@ static bool make_arrays(krylov *k, int64_t capacity)
     mps__vector_point(k->b, k->residual);
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
+    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_room()))) return false;
     return mps__space_grow(&k->space, capacity);
 }
 
@@ -155,6 +166,37 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
 
 /* ---- solution ---- */
 
+/* Of SUNDIALS. @return iterations used */
+static int run_here(krylov *k, int iterations, double delta)
+{
+    SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
+    const int flag = k->kind->run(k->solver, k->pc != NULL, iterations, k->x, k->b, delta);
+    const bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED ||
+                         flag == SUNLS_CONV_FAIL;
+    if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
+    return SUNLinSolNumIters(k->solver);
+}
+
+/* The same on a device. */
+static int run_there(krylov *k, int iterations, double delta)
+{
+    const mps__space *s = &k->space;
+    mps__cg c = {.problem = k->problem,
+                 .pc = k->pc,
+                 .pc_self = k->pc_self,
+                 .room = k->room,
+                 .x = k->correction,
+                 .r = k->residual,
+                 .weight = s->weight,
+                 .norm_limit = s->norm_limit,
+                 .divergence_limit = s->divergence_limit,
+                 .delta = delta,
+                 .most = iterations};
+    mps__space_lend(&k->space, MPS__CG_ARRAYS, c.array);
+    k->failure = mps__cg_run(&c);
+    return c.used;
+}
+
 /* One run of the method on A d = residual; p takes d. */
 static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
 {
@@ -164,13 +206,8 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     /* rounding must not leave what no p can produce */
     mps__components_center(problem, k->residual, k->sums);
     k->failure = 0;
-    SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
-    int flag = k->kind->run(k->solver, k->pc != NULL, problem->max_iterations - result->iterations,
-                            k->x, k->b, delta);
-    result->iterations += SUNLinSolNumIters(k->solver);
-    bool stopped = flag == MPS__SUNDIALS_SUCCESS || flag == SUNLS_RES_REDUCED ||
-                   flag == SUNLS_CONV_FAIL;
-    if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
+    const int left = problem->max_iterations - result->iterations;
+    result->iterations += k->room ? run_there(k, left, delta) : run_here(k, left, delta);
     if (k->pc && !k->kind->symmetric) {
         int reason = k->pc->apply(k->pc_self, d, k->inner);
         if (reason) k->failure = reason;

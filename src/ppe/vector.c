@@ -255,6 +255,13 @@ bool mps__space_grow(mps__space *space, int64_t capacity)
     return good;
 }
 
+void mps__space_lend(const mps__space *space, int count, double **arrays)
+{
+    N_Vector v = space->owned;
+    for (int k = 0; k < count && v; k++, v = content_of(v)->next_owned)
+        arrays[k] = content_of(v)->data;
+}
+
 void mps__space_release(mps__space *space)
 {
     while (space->spare) {

@@ -36,6 +36,8 @@ N_Vector mps__vector_stop(mps__space *space);
 bool mps__space_reserve(mps__space *space, int count);
 /* Room for `capacity` elements in all vectors that own their array; what was in them is lost. False when out of memory: the capacity is 0. */
 bool mps__space_grow(mps__space *space, int64_t capacity);
+/* The first `count` arrays of vectors that own theirs: scratch while no vector is used. */
+void mps__space_lend(const mps__space *space, int count, double **arrays);
 /* Give back all arrays; the next ones come from `arrays`. */
 void mps__space_leave(mps__space *space, const mps_allocator *arrays);
 void mps__space_release(mps__space *space);

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { GROUP = 64, PARTS = 16 };
+enum { PARTS = 16 };
 
 /* Keep the first failure. @return 1 */
 static int fail(opencl *o, const char *format, ...)
@@ -161,7 +161,7 @@ static int run_kernel(opencl *o, const opencl_kernel *k, const mps_launch *l, mp
     memcpy(o->arguments.begin, &head, sizeof head);
     if (l->view) memcpy(o->arguments.begin + sizeof head, l->view, view);
     memcpy(o->arguments.begin + sizeof head + view, l->fields, l->bytes);
-    return start(o, k->kernel, k->name, l->n, GROUP);
+    return start(o, k->kernel, k->name, l->n, MPS__LAUNCH_GROUP);
 }
 
 /* Terms of rows become the results of groups, in the second launch one each. */
@@ -237,6 +237,12 @@ static bool keep(opencl_room *r)
     return r->copied > 0;
 }
 
+/* Whether a kernel leaves its rows out, as the text of the host does then. */
+static bool left_out(const mps_launch *l)
+{
+    return l->unless && *l->unless;
+}
+
 /* The host's text runs on the arrays; its results are kept, and the arrays are as before. */
 static int run_host(opencl *o, const mps_launch *l, mps_exact *sum, double *maximum)
 {
@@ -249,7 +255,7 @@ static int run_host(opencl *o, const mps_launch *l, mps_exact *sum, double *maxi
         if (!keep(r)) return fail(o, "no memory");
         memcpy(r->before, r->begin, r->bytes);
     }
-    l->run(l->host, 0, l->n, sum, maximum);
+    if (!left_out(l)) l->run(l->host, 0, l->n, sum, maximum);
     for (int k = 0; k < OPENCL_ROOMS; k++) {
         opencl_room *r = &o->room[k];
         if (!r->seen) continue;
@@ -297,7 +303,7 @@ static int rows(void *self, const mps_launch *l)
         return 0;
     }
     if (run_host(o, l, NULL, NULL)) return 1;
-    if (run_kernel(o, k, l, (mps__launch){.n = l->n})) return 1;
+    if (run_kernel(o, k, l, (mps__launch){.n = l->n, .unless = l->unless})) return 1;
     compare_rooms(o, k);
     return 0;
 }
@@ -322,11 +328,13 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     const mps__launch head = {.n = l->n,
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
-                              .terms = opencl_terms(o, count, l->n)};
+                              .terms = opencl_terms(o, count, l->n),
+                              .unless = l->unless};
     if (!head.terms) return fail(o, "no room for terms");
-    if (run_kernel(o, k, l, head) || opencl_join(o, l->n, l->sums, sum, l->maxima, maximum))
-        return 1;
+    if (run_kernel(o, k, l, head)) return 1;
     compare_rooms(o, k);
+    if (left_out(l)) return 0;
+    if (opencl_join(o, l->n, l->sums, sum, l->maxima, maximum)) return 1;
     for (int m = 0; m < l->sums; m++)
         if (memcmp(&sum[m], &host_sum[m], sizeof *sum) != 0)
             differ(o, k, "a sum", 0, &(double){mps_exact_value(&sum[m])},
@@ -347,6 +355,7 @@ static int gather(void *self, const mps_launch *l, void *to)
     for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
     if (!room_of(o, to)) return fail(o, "results go to no room");
     if (values(o, l, sum, maximum)) return 1;
+    if (left_out(l)) return 0;
     return (l->sums > 0 && move(o, to, sum, sums)) ||
            (l->maxima > 0 &&
             move(o, (char *)to + sums, maximum, (size_t)l->maxima * sizeof *maximum));

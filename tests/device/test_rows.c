@@ -5,6 +5,7 @@
 #include "launch.h"
 #include "loops.h"
 #include "search_fixture.h"
+#include "solutions.h"
 
 static opencl device;
 
@@ -61,13 +62,21 @@ static void presets(void **state)
 }
 
 /* Loops of grids that the host has and of those that a device has. */
-static const char *const of_grids[] = {
-    "auxgrid_transfer__add_turns in 2-D", "auxgrid_transfer__add_turns in 3-D",
-    "auxgrid_cycle__relax_rows in 2-D",   "auxgrid_cycle__relax_rows in 3-D",
-    "auxgrid_cycle__begin_rows in 2-D",   "auxgrid_cycle__correct_rows in 2-D",
-    "auxgrid_cycle__correct_rows in 3-D", "auxgrid_cycle__rest_rows in 2-D",
-    "auxgrid_cycle__rest_rows in 3-D",    "auxgrid_device__gather_rows in 2-D",
-    "jacobi__invert_rows in 2-D"};
+static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
+                                       "auxgrid_transfer__add_turns in 3-D",
+                                       "auxgrid_cycle__relax_rows in 2-D",
+                                       "auxgrid_cycle__relax_rows in 3-D",
+                                       "auxgrid_cycle__begin_rows in 2-D",
+                                       "auxgrid_cycle__correct_rows in 2-D",
+                                       "auxgrid_cycle__correct_rows in 3-D",
+                                       "auxgrid_cycle__rest_rows in 2-D",
+                                       "auxgrid_cycle__rest_rows in 3-D",
+                                       "auxgrid_device__gather_rows in 2-D",
+                                       "auxgrid_last__solve_last in 2-D",
+                                       "cg__decisions in 2-D",
+                                       "cg__turns in 2-D",
+                                       "cg__advances in 2-D",
+                                       "jacobi__invert_rows in 2-D"};
 
 /* So many cells that auxgrid has a second grid; and jacobi. */
 static mps_sim *fine(int32_t dim, const char *preconditioner)
@@ -91,6 +100,18 @@ static void several_grids(void **state)
             there = strstr(device.kernel[m].name, of_grids[k]) && device.kernel[m].launches > 0;
         if (!there) fail_msg("%s has not run", of_grids[k]);
     }
+}
+
+/* Kernels leave their rows out after conjugate gradients have stopped. */
+static void solutions(void **state)
+{
+    mps_sim *sim = new_sim(2, 0.1);
+    (void)state;
+    opencl_attach(&device, sim);
+    compare_solutions(sim, 3);
+    mps_sim_destroy(sim);
+    if (device.failure[0]) fail_msg("%s", device.failure);
+    if (device.difference[0]) fail_msg("%s", device.difference);
 }
 
 static void other_scenes(void **state)
@@ -272,15 +293,11 @@ static void a_difference_is_found(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),
-        cmocka_unit_test(scans_of_any_size),
-        cmocka_unit_test(searches_of_any_size),
-        cmocka_unit_test(presets),
-        cmocka_unit_test(several_grids),
-        cmocka_unit_test(other_scenes),
-        cmocka_unit_test(all_models),
-        cmocka_unit_test(kernels_are_there),
-        cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),     cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(searches_of_any_size), cmocka_unit_test(presets),
+        cmocka_unit_test(several_grids),        cmocka_unit_test(solutions),
+        cmocka_unit_test(other_scenes),         cmocka_unit_test(all_models),
+        cmocka_unit_test(kernels_are_there),    cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);

@@ -230,13 +230,23 @@ static void outdated(void *self, void *array, uint64_t bytes, uint32_t number)
 
 /* ---- loops ---- */
 
+static uint32_t slot_of(const char *file, const char *name)
+{
+    uint32_t hash = 0;
+    for (const char *c = file; *c; c++) hash = hash * 31 + (unsigned char)*c;
+    for (const char *c = name; *c; c++) hash = hash * 31 + (unsigned char)*c;
+    return hash % SHADOW_LOOPS;
+}
+
+int32_t shadow_seen(const shadow *s, const char *file, const char *name)
+{
+    return s->seen[slot_of(file, name)];
+}
+
 /* Whether the memory of the handle is closed for a launch: for the first ones of a loop, because closing takes longer than most loops. */
 static bool closes(shadow *s, const mps_launch *l)
 {
-    uint32_t hash = 0;
-    for (const char *c = l->file; *c; c++) hash = hash * 31 + (unsigned char)*c;
-    for (const char *c = l->name; *c; c++) hash = hash * 31 + (unsigned char)*c;
-    return s->seen[hash % SHADOW_LOOPS]++ < SHADOW_CLOSED;
+    return s->seen[slot_of(l->file, l->name)]++ < SHADOW_CLOSED;
 }
 
 /* A host address among the arguments would be followed on a device, to nowhere. Here it finds closed memory. */

@@ -28,6 +28,8 @@ typedef struct shadow {
 void shadow_heap(mps_sim *sim);
 /* Steps of a simulation run on the shadow from now on; it must live longer. */
 void shadow_attach(shadow *s, mps_sim *sim);
+/* Launches of a loop. */
+int32_t shadow_seen(const shadow *s, const char *file, const char *name);
 /* Print what a step did: launches, waits, bytes. */
 mps_device_info shadow_counts(const mps_sim *sim);
 

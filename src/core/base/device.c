@@ -59,6 +59,7 @@ void mps__device_begin(mps__device *d)
     d->info = (mps_device_info){
         .struct_size = sizeof d->info, .name = d->ops.name, .bytes_held = held};
     d->failed = false;
+    d->unless = NULL;
 }
 
 mps__device *mps__device_of(const mps_parallel *p)
@@ -197,6 +198,7 @@ static void complete(mps__device *d, mps_launch *launch)
 {
     launch->struct_size = sizeof *launch;
     launch->file = name_of(launch->file);
+    launch->unless = d->unless;
     d->info.launches++;
 }
 

@@ -20,6 +20,7 @@ typedef struct mps__device {
     mps_device_ops ops;    /* name NULL: there is none */
     mps_device_info info;  /* of the step in progress */
     mps_parallel parallel; /* while calls run on the device */
+    const int64_t *unless; /* of launches from now on; NULL: each of them runs */
     bool failed;   /* a call has: no loop or copy is asked of the device until the next step */
     char why[301]; /* text of that failure */
     struct {
@@ -59,6 +60,8 @@ void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number);
 /* Rows, sums and maxima of a launch whose struct_size and file are set here; none if n is 0. */
 void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima);
+/* The same without waiting: sums, then maxima, go to memory there. */
+void mps__device_gather(mps__device *d, mps_launch *launch, void *to);
 
 /* The same without waiting: sums, then maxima, go to memory there. */
 void mps__device_gather(mps__device *d, mps_launch *launch, void *to);

@@ -163,6 +163,17 @@ void mps_exact_join(mps_exact *sum, const mps_exact *other)
     sum->special |= from.special;
 }
 
+/* u_k, which is subnormal below level 2. The product with it is rounded once, as by ldexp(), which devices do not have. */
+static double unit_of(int32_t level)
+{
+    const int32_t power = LEVEL_BITS * level - FIRST_BITS;
+    const uint64_t bits = power < DBL_MIN_EXP - 1 ? (uint64_t)1 << (power + FIRST_BITS)
+                                                  : (uint64_t)(power + DBL_MAX_EXP - 1) << 52;
+    double v;
+    memcpy(&v, &bits, sizeof v);
+    return v;
+}
+
 double mps_exact_value(const mps_exact *sum)
 {
     static const int64_t unit = (int64_t)1 << LEVEL_BITS, split = (int64_t)1 << 32;
@@ -174,7 +185,7 @@ double mps_exact_value(const mps_exact *sum)
     /* what is below 2^84 and what is above: rounded once, unless there is both */
     const double low = (double)(middle % unit * unit + sum->part[0] % unit),
                  below = (double)(high % split) * 0x1p52 + low, above = (double)top * 0x1p84;
-    return ldexp(above + below, LEVEL_BITS * sum->level - FIRST_BITS);
+    return (above + below) * unit_of(sum->level);
 }
 
 /* ---- loops ---- */

@@ -91,6 +91,11 @@ static mps_launch launch_of(const job *k, int64_t n)
                         .host = k};
 }
 
+void mps__group_run(mps__device *d, const mps__loop *group, const void *fields)
+{
+    run_loop(&d->parallel, &(job){.loop = group, .dim = 2, .fields = fields}, MPS__TOGETHER, 1);
+}
+
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum)
 {

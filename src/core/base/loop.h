@@ -29,9 +29,13 @@ typedef struct mps__values {
     const char *file;
 } mps__values;
 
+/* Threads of a group of MPS__GROUP(). */
+enum { MPS__TOGETHER = 128 };
 /* The dimension of loops whose rows do not look at it. */
 enum { MPS__ANY_DIM = 2 };
 
+/* Run a loop of MPS__GROUP() on a device. */
+void mps__group_run(struct mps__device *d, const mps__loop *group, const void *fields);
 /* Run rows 0..n-1, ranges of MPS_PARALLEL_LEAST of them at least. A row writes nothing that others read. */
 void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                    const void *fields);
@@ -82,6 +86,19 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         (void)dim_;                                                                       \
         MPS__INDEPENDENT                                                                  \
         for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);              \
+    }                                                                                     \
+    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
+
+/* Define the mps__loop `name` of work that the threads of one group of a device do together, MPS__TOGETHER of them:
+ *   static void together(const type *fields, int64_t lane, bool any);
+ * which is compiled for devices alone (MPS_DEVICE). All threads wait for each other by mps__thread_wait(), none under a condition that others do not
+ * have; without `any` there is nothing to do. The host does the same by
+ *   static void whole(const type *fields); */
+#define MPS__GROUP(name, whole, together, type)                                           \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
+    {                                                                                     \
+        (void)dim_, (void)end;                                                            \
+        if (begin == 0) whole((const type *)fields_);                                     \
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 

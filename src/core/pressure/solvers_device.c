@@ -73,13 +73,34 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
     return mps__device_status(s->device);
 }
 
-int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
+/* What the set-up of auxgrid copies, once for each device. */
+static void tell_copies(mps__solvers *s, int64_t down, int64_t up)
+{
+    if (s->told) return;
+    s->told = true;
+    mps__log(
+        s->context, MPS_LOG_INFO,
+        "device '%s': the grids of auxgrid are made on the host; %.3g MB come there in a step, "
+        "%.3g MB go back",
+        s->device->ops.name, 1e-6 * (double)down, 1e-6 * (double)up);
+}
+
+static int set_auxgrid_up(mps__solvers *s, const mps_ppe_problem *there)
 {
     const mps__equation_there source = {there, s->show, s->owner};
-    if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
     if (!s->here) return mps__auxgrid_setup_there(s->pc_self, &source, s->device);
     const int reason = s->pc->setup(s->pc_self, s->here);
     return reason ? reason : mps__auxgrid_send(s->pc_self, s->device);
+}
+
+int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
+{
+    if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
+    const mps_device_info *i = &s->device->info;
+    const int64_t down = i->bytes_down, up = i->bytes_up;
+    const int reason = set_auxgrid_up(s, there);
+    if (!reason) tell_copies(s, i->bytes_down - down, i->bytes_up - up);
+    return reason;
 }
 
 void mps__solvers_leave(mps__solvers *s, mps__device *d)
@@ -90,4 +111,5 @@ void mps__solvers_leave(mps__solvers *s, mps__device *d)
     if (s->spare_self) mps__jacobi_leave(s->spare_self);
     mps__device_leave(d, &s->room);
     s->device = NULL;
+    s->told = false;
 }

@@ -1,0 +1,95 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Conjugate gradients of a device have the bytes of those on the host, whatever ends them; what an iteration costs. */
+#define _POSIX_C_SOURCE 200809L
+#include "scene.h"
+#include "solutions.h"
+
+static void solutions(void **state)
+{
+    mps_sim *sim = new_sim(2, 0.1);
+    shadow s;
+    (void)state;
+    shadow_heap(sim);
+    shadow_attach(&s, sim);
+    compare_solutions(sim, 1);
+    mps_sim_destroy(sim);
+    assert_int_equal(s.rooms, 0);
+}
+
+/* ---- what an iteration costs ---- */
+
+/* Launches of one iteration, and what waits for eight of them. */
+typedef struct cost {
+    const char *preconditioner;
+    kit_lattice lattice;
+    int64_t launches, waits;
+} cost;
+
+static void counts_of(mps_sim *sim, const cost *c, int32_t most, int64_t counts[2])
+{
+    kit_system *s = kit_lattice_system(&c->lattice);
+    mps__device *d = &sim->world.host.twins.device;
+    mps_solver_limits limits = {
+        .struct_size = sizeof limits, .max_iterations = most, .tolerance = 1e-15};
+    answer a;
+    assert_non_null(s);
+    assert_int_equal(mps__solvers_set_limits(&sim->world.solvers, &limits), MPS_OK);
+    s->problem.weight = NULL;
+    solve(sim, d, &s->problem, 0, &a);
+    assert_int_equal(a.result.iterations, most);
+    counts[0] = d->info.waits;
+    counts[1] = d->info.launches;
+    free(a.p);
+    kit_system_free(s);
+}
+
+static void costs(void **state)
+{
+    static const kit_lattice small = {.dim = 2,
+                                      .nx = 30,
+                                      .ny = 20,
+                                      .nz = 1,
+                                      .boxes = 1,
+                                      .open = 1,
+                                      .re = 3.1,
+                                      .contrast = 1},
+                             large = {.dim = 2,
+                                      .nx = 100,
+                                      .ny = 80,
+                                      .nz = 1,
+                                      .boxes = 1,
+                                      .open = 1,
+                                      .re = 3.1,
+                                      .contrast = 1};
+    /* auxgrid: one grid, and three */
+    static const cost table[] = {{"none", small, 7, 1},
+                                 {"jacobi", small, 8, 1},
+                                 {"auxgrid", small, 12, 1},
+                                 {"auxgrid", large, 34, 1}};
+    (void)state;
+    for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
+        const cost *c = &table[k];
+        int64_t few[2], many[2];
+        mps_sim *sim = new_sim(2, 0.1);
+        shadow s;
+        shadow_attach(&s, sim);
+        assert_int_equal(mps_solver_use(sim, "sundials.pcg", c->preconditioner), MPS_OK);
+        counts_of(sim, c, 8, few);
+        counts_of(sim, c, 16, many);
+        print_message("%s, %d particles: %g launches of an iteration, %lld waits for eight\n",
+                      c->preconditioner, c->lattice.nx * c->lattice.ny,
+                      (double)(many[1] - few[1]) / 8, (long long)(many[0] - few[0]));
+        assert_int_equal(many[0] - few[0], c->waits);
+        assert_int_equal(many[1] - few[1], 8 * c->launches);
+        mps_sim_destroy(sim);
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(solutions),
+        cmocka_unit_test(costs),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
