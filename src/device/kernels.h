@@ -107,9 +107,13 @@ _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
     }                                                                                   \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
-/* What the host has of its own for a loop is for its vectors. */
+/* What the host has of its own for a loop is for its vectors. scripts/device_rows finds itself which kernels do not look at the dimension. */
+#undef MPS__LOOP_ANY
+#define MPS__LOOP_ANY(name, row, type) MPS__LOOP(name, row, type)
 #undef MPS__LOOP_CHEAP
 #define MPS__LOOP_CHEAP(name, row, type) MPS__LOOP(name, row, type)
+#undef MPS__VALUES_ANY
+#define MPS__VALUES_ANY(name, row, type, sums, maxima) MPS__VALUES(name, row, type, sums, maxima)
 #undef MPS__VALUES_BY
 #define MPS__VALUES_BY(name, row, range, type, sums, maxima) \
     MPS__VALUES(name, row, type, sums, maxima)

@@ -87,7 +87,7 @@ MPS_ROW void begin_row(const int dim, const cells *f, int64_t c)
     (void)dim;
     f->x[c] = c < f->red ? f->b[c] * f->inverse[c] : 0;
 }
-MPS__LOOP(begin_rows, begin_row, cells)
+MPS__LOOP_ANY(begin_rows, begin_row, cells)
 
 static void sweep_down(const mps__grid *g, const mps__grid_level *l)
 {

@@ -180,7 +180,7 @@ MPS_ROW void gather_row(const int dim, const gathering *f, int64_t c)
         sum += (double)f->list.part[k] * f->rest[f->list.from[k]];
     f->b[c] = sum;
 }
-MPS__LOOP(gather_rows, gather_row, gathering)
+MPS__LOOP_ANY(gather_rows, gather_row, gathering)
 
 void mps__grid_gather(const mps__grid_away *a, int k)
 {

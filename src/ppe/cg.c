@@ -81,7 +81,7 @@ MPS_ROW void decide(const int dim, const recurrence *f, int64_t i)
                  : f->decision == DIRECTION     ? direction(f, sum)
                                                 : step(f, sum);
 }
-MPS__LOOP(decisions, decide, recurrence)
+MPS__LOOP_ANY(decisions, decide, recurrence)
 
 /* The first direction is z itself. */
 MPS_ROW void turn(const int dim, const recurrence *f, int64_t i)
@@ -90,7 +90,7 @@ MPS_ROW void turn(const int dim, const recurrence *f, int64_t i)
     if (f->n->stop) return;
     f->p[i] = f->n->iterations == 0 ? f->z[i] : f->z[i] + f->n->beta * f->p[i];
 }
-MPS__LOOP(turns, turn, recurrence)
+MPS__LOOP_ANY(turns, turn, recurrence)
 
 /* A step along p, and the norms of what is left. */
 MPS_ROW void advance(const int dim, const recurrence *f, int64_t i, double *values)
@@ -105,7 +105,7 @@ MPS_ROW void advance(const int dim, const recurrence *f, int64_t i, double *valu
     values[0] = r * r;
     if (size > values[1]) values[1] = size;
 }
-MPS__VALUES(advances, advance, recurrence, 1, 1)
+MPS__VALUES_ANY(advances, advance, recurrence, 1, 1)
 
 size_t mps__cg_room(void)
 {

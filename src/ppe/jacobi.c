@@ -66,7 +66,7 @@ MPS_ROW void invert_row(const int dim, const operands *o, int64_t i, double *fou
     /* an empty row is a particle without neighbours, its residual is 0 */
     o->z[i] = d > 0 ? 1 / d : 1;
 }
-MPS__VALUES(invert_rows, invert_row, operands, 0, VALUES)
+MPS__VALUES_ANY(invert_rows, invert_row, operands, 0, VALUES)
 
 static int setup(void *self, const mps_ppe_problem *problem)
 {

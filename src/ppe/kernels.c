@@ -153,7 +153,7 @@ MPS_ROW void scale_row(const int dim, const curvature *c, int64_t i, double *val
     (void)dim;
     values[0] = c->diagonal[i] * c->x[i] * c->x[i];
 }
-MPS__VALUES(scale_rows, scale_row, curvature, 1, 0)
+MPS__VALUES_ANY(scale_rows, scale_row, curvature, 1, 0)
 
 bool mps__curvature_negative(const mps_ppe_problem *problem, const double *x, double found)
 {

@@ -159,7 +159,7 @@ MPS_ROW void square_row(const int dim, const operands *o, int64_t i, double *val
     (void)dim;
     values[0] = product * product;
 }
-MPS__VALUES(square_rows, square_row, operands, 1, 0)
+MPS__VALUES_ANY(square_rows, square_row, operands, 1, 0)
 
 double mps__vectors_squares(const mps_ppe_problem *problem, const double *x, const double *y)
 {
@@ -217,7 +217,7 @@ MPS_ROW void largest_row(const int dim, const operands *o, int64_t i, double *va
     (void)dim;
     if (value > values[0]) values[0] = value;
 }
-MPS__VALUES(largest_rows, largest_row, operands, 0, 1)
+MPS__VALUES_ANY(largest_rows, largest_row, operands, 0, 1)
 
 double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, double factor,
                             double least)
@@ -232,7 +232,7 @@ MPS_ROW void poison_row(const int dim, const operands *o, int64_t i, double *val
     (void)dim;
     if (0 * o->x[i] != 0) values[0] = 1;
 }
-MPS__VALUES(poison_rows, poison_row, operands, 0, 1)
+MPS__VALUES_ANY(poison_rows, poison_row, operands, 0, 1)
 
 bool mps__vectors_poisoned(const mps_ppe_problem *problem, const double *x)
 {

@@ -69,6 +69,16 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
+/* MPS__LOOP() of rows that do not look at the dimension: compiled once. */
+#define MPS__LOOP_ANY(name, row, type)                                                    \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        (void)dim_;                                                                       \
+        for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);              \
+    }                                                                                     \
+    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
+
 /* The next loop has rounds that do not depend on each other: arrays in it are the same or apart. */
 #if defined(__clang__)
 #define MPS__INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
@@ -127,6 +137,27 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
 
+/* MPS__VALUES() of rows that do not look at the dimension. */
+#define MPS__VALUES_ANY(name, row, type, sums, maxima)                                    \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
+                           mps_exact *sum_, double *maximum_)                             \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        double own_[(sums) + (maxima)];                                                   \
+        (void)dim_;                                                                       \
+        mps__terms terms_;                                                                \
+        mps__terms_begin(&terms_, sum_, sums);                                            \
+        memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double));                       \
+        for (int64_t i = begin; i < end; i++) {                                           \
+            memset(own_, 0, (sums) * sizeof(double));                                     \
+            row(MPS__ANY_DIM, &given_, i, own_);                                          \
+            if ((sums) > 0) mps__terms_add(&terms_, own_);                                \
+        }                                                                                 \
+        mps__terms_end(&terms_);                                                          \
+        memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
+    }                                                                                     \
+    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
+
 /* MPS__VALUES() for which the host has a function of a range, with the same terms:
  *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums, double *maxima); */
 #define MPS__VALUES_BY(name, row, range, type, sums, maxima)                              \
@@ -148,6 +179,6 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         (void)dim_;                                                                            \
         if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_;            \
     }                                                                                          \
-    MPS__VALUES(name, name##_row, type, 0, 1)
+    MPS__VALUES_ANY(name, name##_row, type, 0, 1)
 
 #endif

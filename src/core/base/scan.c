@@ -18,7 +18,7 @@ MPS_ROW void sum_row(const int dim, const level *l, int64_t block)
     for (int64_t i = begin; i < end; i++) l->value[i] = sum += l->value[i];
     if (l->n > MPS__SCAN_BLOCK) l->sum[block] = sum;
 }
-MPS__LOOP(sum_blocks, sum_row, level)
+MPS__LOOP_ANY(sum_blocks, sum_row, level)
 
 /* The sums are those of all blocks up to each by now. */
 MPS_ROW void raise_row(const int dim, const level *l, int64_t i)
@@ -26,7 +26,7 @@ MPS_ROW void raise_row(const int dim, const level *l, int64_t i)
     (void)dim;
     if (i >= MPS__SCAN_BLOCK) l->value[i] += l->sum[i / MPS__SCAN_BLOCK - 1];
 }
-MPS__LOOP(raise_rows, raise_row, level)
+MPS__LOOP_ANY(raise_rows, raise_row, level)
 
 static int64_t blocks_of(int64_t n)
 {

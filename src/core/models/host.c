@@ -210,7 +210,7 @@ MPS_ROW void begin_row(const int dim, const beginning *b, int64_t i)
             b->integers[i * b->width + d] = (int32_t)value;
     }
 }
-MPS__LOOP(begin_rows, begin_row, beginning)
+MPS__LOOP_ANY(begin_rows, begin_row, beginning)
 
 static void begin_channel(mps__host *h, int32_t channel, int32_t place)
 {

@@ -193,7 +193,7 @@ MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
     l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
     l->end[i] = keep_visible(l, a, middle, last, l->middle[i]);
 }
-MPS__LOOP(hide_rows, hide_row, hiding)
+MPS__LOOP_ANY(hide_rows, hide_row, hiding)
 
 void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there)
 {
@@ -251,7 +251,7 @@ MPS_ROW void near_row(const int dim, const nears *f, int64_t i)
     (void)dim;
     f->near_begin[i] = i > 0 ? f->middle[i - 1] - f->begin[i - 1] : 0;
 }
-MPS__LOOP(near_rows, near_row, nears)
+MPS__LOOP_ANY(near_rows, near_row, nears)
 
 void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,
                           int64_t *near_begin)

@@ -254,7 +254,7 @@ MPS_ROW void merge_row(const int dim, const merging *m, int64_t a)
     m->new_key[to] = m->key[a];
     m->new_order[to] = m->order[a];
 }
-MPS__LOOP(merge_rows, merge_row, merging)
+MPS__LOOP_ANY(merge_rows, merge_row, merging)
 
 MPS_ROW bool begins_crowd(const merging *m, int64_t a)
 {

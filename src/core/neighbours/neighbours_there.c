@@ -62,7 +62,7 @@ MPS_ROW void measure_row(const int dim, const seeking *s, int64_t i, double *mos
     if (count > most[0]) most[0] = count;
     if (sum > most[1]) most[1] = sum;
 }
-MPS__VALUES(measure_rows, measure_row, seeking, 0, 2)
+MPS__VALUES_ANY(measure_rows, measure_row, seeking, 0, 2)
 
 /* The begin of a row is the end of its candidates so far. */
 MPS_ROW void fill_row(const int dim, const seeking *s, int64_t i)

@@ -21,7 +21,7 @@ MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->bounded[r] = bounded;
     f->held[r] = bounded && f->held_before[i] != 0;
 }
-MPS__LOOP(begin_rows, begin_row, mps__bound_rows)
+MPS__LOOP_ANY(begin_rows, begin_row, mps__bound_rows)
 
 MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
@@ -48,7 +48,7 @@ MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->shift[r] = own ? f->diagonal[r] : shift;
     f->rhs[r] = own ? f->diagonal[r] * f->least[r] : rhs;
 }
-MPS__LOOP(pin_rows, pin_row, mps__bound_rows)
+MPS__LOOP_ANY(pin_rows, pin_row, mps__bound_rows)
 
 /* The row as it was assembled, to the bit. */
 MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
@@ -59,7 +59,7 @@ MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->shift[r] = f->kept_shift[r];
     for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) f->val[p] = f->kept[p];
 }
-MPS__LOOP(free_rows, free_row, mps__bound_rows)
+MPS__LOOP_ANY(free_rows, free_row, mps__bound_rows)
 
 MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
 {
@@ -78,14 +78,14 @@ MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, doub
     if (held != f->held[r]) changed[0] = 1;
     f->held[r] = held;
 }
-MPS__VALUES(choose_rows, choose_row, mps__bound_rows, 0, 1)
+MPS__VALUES_ANY(choose_rows, choose_row, mps__bound_rows, 0, 1)
 
 MPS_ROW void tell_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
     (void)dim;
     if (f->held[r]) f->condition[f->particle[r]] = MPS__ROW_HELD;
 }
-MPS__LOOP(tell_rows, tell_row, mps__bound_rows)
+MPS__LOOP_ANY(tell_rows, tell_row, mps__bound_rows)
 
 static void run(const mps__bounds *b, const mps__ppe *e, const mps__loop *loop)
 {

@@ -22,7 +22,7 @@ MPS_ROW void begin_row(const int dim, const forest *f, int64_t r)
     mps__forest_put(&f->parent[r], (int32_t)(first < r ? first : r));
     mps__forest_put(&f->level[r], 0);
 }
-MPS__LOOP(begin_rows, begin_row, forest)
+MPS__LOOP_ANY(begin_rows, begin_row, forest)
 
 MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
 {
@@ -34,14 +34,14 @@ MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
             mps__forest_join(f->parent, (int32_t)r, f->col[k]);
     }
 }
-MPS__LOOP(join_rows, join_row, forest)
+MPS__LOOP_ANY(join_rows, join_row, forest)
 
 MPS_ROW void raise_row(const int dim, const forest *f, int64_t r)
 {
     (void)dim;
     if (f->shift[r] > 0) mps__forest_put(&f->level[mps__forest_root(f->parent, (int32_t)r)], 1);
 }
-MPS__LOOP(raise_rows, raise_row, forest)
+MPS__LOOP_ANY(raise_rows, raise_row, forest)
 
 MPS_ROW bool lacks_level(const forest *f, int64_t r)
 {

@@ -147,7 +147,7 @@ MPS_ROW void mark_row(const int dim, const numbering *f, int64_t i)
     (void)dim;
     f->number[i] = !is_unknown(a, i) ? 0 : mps__owns(a->ghost, i) ? 1 : OTHERS;
 }
-MPS__LOOP(mark_rows, mark_row, numbering)
+MPS__LOOP_ANY(mark_rows, mark_row, numbering)
 
 /* Unknowns in the order of the particles, behind them those of other ranks. */
 MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
@@ -160,7 +160,7 @@ MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
     f->unknown[i] = solved ? (int32_t)place - 1 : -1;
     if (solved) f->particle[place - 1] = (int32_t)i;
 }
-MPS__LOOP(number_rows, number_row, numbering)
+MPS__LOOP_ANY(number_rows, number_row, numbering)
 
 /* The last of sums, from where they are; 0 if a device has failed. */
 static int64_t last_of(const mps__ppe *e, const int64_t *sums, int64_t count)
@@ -205,7 +205,7 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
     a->row[r + 1] = count;
     if (r == 0) a->row[0] = 0;
 }
-MPS__LOOP(count_rows, count_row, assembly)
+MPS__LOOP_ANY(count_rows, count_row, assembly)
 
 /* Row starts, and the entries of all. */
 static void start_rows(mps__ppe *e, const assembly *a)
@@ -423,7 +423,7 @@ MPS_ROW void scatter_row(const int dim, const scatter *c, int64_t i)
     else
         c->p[i] = c->condition[i] == MPS_ROW_FIXED ? c->value[i] : 0;
 }
-MPS__LOOP(scatter_rows, scatter_row, scatter)
+MPS__LOOP_ANY(scatter_rows, scatter_row, scatter)
 
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p)
 {

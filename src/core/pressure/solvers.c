@@ -437,7 +437,7 @@ MPS_ROW void check_row(const int dim, const check *c, int64_t i, double *values)
     if (d > maxima[LARGEST]) maxima[LARGEST] = d;
     if (0 * d != 0) maxima[POISON] = 1;
 }
-MPS__VALUES(check_rows, check_row, check, SUMS, MAXIMA)
+MPS__VALUES_ANY(check_rows, check_row, check, SUMS, MAXIMA)
 
 mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work,
                          mps_ppe_result *result)

@@ -48,7 +48,7 @@ MPS_ROW void transfer_row(const int dim, const transfer *f, int64_t i)
     f->to[i * f->to_count + f->to_at] = place >= 0 ? f->from[place * f->from_count + f->from_at]
                                                    : 0;
 }
-MPS__LOOP(transfer_rows, transfer_row, transfer)
+MPS__LOOP_ANY(transfer_rows, transfer_row, transfer)
 
 /* What the rows are made of, on the host. */
 static void get_ready(mps__world *w)

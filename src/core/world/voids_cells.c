@@ -262,7 +262,7 @@ MPS_ROW void class_row(const int dim, const part_fields *f, int64_t part)
                 settle_line(f, first, first + v->cells[0]);
         }
 }
-MPS__LOOP(class_parts, class_row, part_fields)
+MPS__LOOP_ANY(class_parts, class_row, part_fields)
 
 bool mps__voids_is_narrow(mps__voids *v, const mps__world *w, int64_t c)
 {
