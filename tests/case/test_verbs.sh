@@ -447,7 +447,9 @@ wait $pid
 says "^mps coefficients: halted/001 was interrupted, exit code 130$"
 [ -e halted/002 ] && fail "an interrupted series went on"
 [ -e halted/coefficients.csv ] && fail "a table of an interrupted run"
-expect 0 "" "$program" coefficients forced.yaml --degrees sway --omega "200 deg/s" --amplitude "9 mm" --periods 3 -o by_omega -q
+expect 0 "" "$program" coefficients forced.yaml --degrees sway --omega "200 deg/s" --amplitude "9 mm" --periods 3 -o by_omega
+grep -q "averages over" log && fail "a load by the pressures of walls warns as if it were an impact: $(cat log)"
+grep -q "t = .* s, .* steps in" log || fail "no messages of the run: $(cat log)"
 grep -q '^3\.4906' by_omega/coefficients.csv || fail "200 deg/s: $(cat by_omega/coefficients.csv)"
 
 # ---- memory that runs out: at each allocation of a short command, at some of a long one. No crash; a failure has a message, and what is done is right
