@@ -86,9 +86,15 @@ typedef struct mps_device_ops {
     int (*rows)(void *self, const mps_launch *launch);
     /** Run sums and maxima, and wait for them. The sums of any parts of the rows are joined by
      *  mps_exact_join(), in any order. A NaN does not count as maximum.
+     *  A launch that fails leaves both as they were: what they hold is joined with the results once
+     *  all of these are there.
      *  @param sum  [launch->sums] terms are added to what they hold before
      *  @param maximum  [launch->maxima] not below what they hold before */
     int (*values)(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
+    /** Run sums and maxima and do not wait for them. Those of the rows alone, nothing before, go to
+     *  memory of the device: the sums, then the maxima, -INFINITY where there is none.
+     *  @param to  [launch->sums] of mps_exact, then [launch->maxima] of double */
+    int (*gather)(void *self, const mps_launch *launch, void *to);
     /** Wait for the work of all calls before. */
     int (*wait)(void *self);
     /** Why a function failed, one line. NULL: not known. */

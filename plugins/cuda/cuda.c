@@ -28,6 +28,7 @@ mps_status mps_cuda_use(mps_sim *sim, int32_t number)
                               .copy = cuda_copy,
                               .rows = cuda_rows,
                               .values = cuda_values,
+                              .gather = cuda_gather,
                               .wait = cuda_wait,
                               .failure = failure,
                               .begin = cuda_begin,

@@ -47,6 +47,7 @@ int cuda_wait(void *self);
 /* Those of loops. */
 int cuda_rows(void *self, const mps_launch *launch);
 int cuda_values(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
+int cuda_gather(void *self, const mps_launch *launch, void *to);
 
 /* The context of the GPU becomes that of the thread, until cuda_leave(). @return 0, or 1 with the text */
 int cuda_enter(cuda *c);

@@ -165,7 +165,8 @@ static int fetch(cuda *c, const mps_launch *l, const results *r, mps_exact *sum,
     return 0;
 }
 
-static int values(cuda *c, const mps_launch *l, mps_exact *sum, double *maximum)
+/* Results come to `to`, or to memory of the handle's own, where `r` says. */
+static int values(cuda *c, const mps_launch *l, void *to, results *r)
 {
     const int32_t count = l->sums + l->maxima;
     const int64_t parts = parts_of(l->n);
@@ -175,18 +176,33 @@ static int values(cuda *c, const mps_launch *l, mps_exact *sum, double *maximum)
     if (cuda_fit(c, &c->terms, (size_t)(count * l->n) * sizeof(double)) ||
         cuda_fit(c, &c->results, lay_out(c, parts, l->sums, l->maxima).bytes))
         return 1;
-    const results r = lay_out(c, parts, l->sums, l->maxima);
+    *r = lay_out(c, parts, l->sums, l->maxima);
+    if (to) {
+        r->sum = to;
+        r->maximum = (double *)(r->sum + l->sums);
+    }
     double *terms = (double *)(uintptr_t)c->terms.begin;
     const mps__launch head = {
         .n = l->n, .count = count, .first = l->sums > 0 ? 0 : -INFINITY, .terms = terms};
-    return run(c, l, head) || join_all(c, l, terms, &r) || fetch(c, l, &r, sum, maximum);
+    return run(c, l, head) || join_all(c, l, terms, r);
 }
 
 int cuda_values(void *self, const mps_launch *l, mps_exact *sum, double *maximum)
 {
     cuda *c = self;
+    results r = {0};
     if (cuda_enter(c)) return 1;
-    const int failed = values(c, l, sum, maximum);
+    const int failed = values(c, l, NULL, &r) || fetch(c, l, &r, sum, maximum);
+    cuda_leave(c);
+    return failed;
+}
+
+int cuda_gather(void *self, const mps_launch *l, void *to)
+{
+    cuda *c = self;
+    results r = {0};
+    if (cuda_enter(c)) return 1;
+    const int failed = values(c, l, to, &r);
     cuda_leave(c);
     return failed;
 }

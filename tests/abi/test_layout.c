@@ -64,12 +64,12 @@ AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8); AT
 AT(mps_launch, view, 32); AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56); AT(mps_launch, maxima, 60);
 AT(mps_launch, run, 64); AT(mps_launch, host, 72);
 
-SIZE(mps_device_ops, 128);
+SIZE(mps_device_ops, 136);
 AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8); AT(mps_device_ops, self, 16);
 AT(mps_device_ops, room, 24); AT(mps_device_ops, give, 32); AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48);
 AT(mps_device_ops, clear, 56); AT(mps_device_ops, copy, 64); AT(mps_device_ops, rows, 72); AT(mps_device_ops, values, 80);
-AT(mps_device_ops, wait, 88); AT(mps_device_ops, failure, 96); AT(mps_device_ops, outdated, 104); AT(mps_device_ops, begin, 112);
-AT(mps_device_ops, end, 120);
+AT(mps_device_ops, gather, 88); AT(mps_device_ops, wait, 96); AT(mps_device_ops, failure, 104); AT(mps_device_ops, outdated, 112);
+AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128);
 
 SIZE(mps_device_info, 72);
 AT(mps_device_info, struct_size, 0); AT(mps_device_info, host_calls, 4); AT(mps_device_info, name, 8); AT(mps_device_info, launches, 16);

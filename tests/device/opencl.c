@@ -338,6 +338,20 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     return 0;
 }
 
+static int gather(void *self, const mps_launch *l, void *to)
+{
+    opencl *o = self;
+    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
+    double maximum[MPS_PARALLEL_VALUES];
+    const size_t sums = (size_t)l->sums * sizeof *sum;
+    for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
+    if (!room_of(o, to)) return fail(o, "results go to no room");
+    if (values(o, l, sum, maximum)) return 1;
+    return (l->sums > 0 && move(o, to, sum, sums)) ||
+           (l->maxima > 0 &&
+            move(o, (char *)to + sums, maximum, (size_t)l->maxima * sizeof *maximum));
+}
+
 /* ---- open and close ---- */
 
 static unsigned char *read_all(const char *path, size_t *bytes)
@@ -387,6 +401,7 @@ bool opencl_open(opencl *o, const char *bitcode)
                           .copy = copy,
                           .rows = rows,
                           .values = values,
+                          .gather = gather,
                           .wait = wait_for,
                           .failure = failure}};
     if (clGetPlatformIDs(1, &platform, NULL) ||

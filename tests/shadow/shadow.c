@@ -267,6 +267,23 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     return 0;
 }
 
+static int gather(void *self, const mps_launch *l, void *to)
+{
+    shadow *s = self;
+    mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
+    double maximum[MPS_PARALLEL_VALUES];
+    const int k = room_of(s, to);
+    assert_true(k >= 0);
+    for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
+    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return fails(s);
+    run(s, l, sum, maximum);
+    protect(s, k, PROT_READ | PROT_WRITE);
+    memcpy(to, sum, (size_t)l->sums * sizeof *sum);
+    memcpy((mps_exact *)to + l->sums, maximum, (size_t)l->maxima * sizeof *maximum);
+    protect(s, k, PROT_NONE);
+    return 0;
+}
+
 static int wait_for(void *self)
 {
     (void)self;
@@ -293,6 +310,7 @@ void shadow_attach(shadow *s, mps_sim *sim)
                           .copy = copy,
                           .rows = rows,
                           .values = values,
+                          .gather = gather,
                           .wait = wait_for,
                           .failure = failure,
                           .outdated = outdated}};

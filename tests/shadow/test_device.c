@@ -22,6 +22,9 @@ static void tables_are_checked(void **state)
     bad.values = NULL;
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "lacks a function");
     bad = s.ops;
+    bad.gather = NULL;
+    ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "lacks a function");
+    bad = s.ops;
     bad.struct_size = 8;
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "mps_device_ops");
     /* the one before is still there */
@@ -267,9 +270,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {115, 145}, {48, 62}, {18, 35}, {90, 140}},
-        {"imps", 3, {125, 155}, {48, 64}, {8, 25}, {80, 160}},
-        {"mmps", 2, {120, 160}, {45, 65}, {20, 60}, {80, 180}},
+        {"imps", 2, {132, 150}, {38, 46}, {20, 30}, {100, 125}},
+        {"imps", 3, {145, 165}, {38, 47}, {7, 14}, {80, 105}},
+        {"mmps", 2, {135, 155}, {38, 47}, {45, 70}, {150, 190}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
@@ -309,7 +312,7 @@ static void costs(void **state)
  * come from the host. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{12, 35}, {12, 40}}, {{6, 30}, {6, 35}}};
+    static const double range[2][2][2] = {{{19, 26}, {21, 30}}, {{8, 13}, {12, 19}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);

@@ -137,7 +137,7 @@ static void other_scenes(void **state)
 /* Two drops in the air: bodies that nothing holds, which come to the host to be counted. */
 static mps_sim *drops(int32_t dim)
 {
-    const double dp = dim == 2 ? 0.02 : 0.04, wide = 5 * dp;
+    const double dp = dim == 2 ? 0.02 : 0.04, wide = (dim == 2 ? 5 : 3) * dp;
     mps_sim *sim = new_sim(dim, dp);
     shadow_heap(sim);
     ASSERT_OK(sim, mps_preset_use(sim, "imps"));

@@ -179,9 +179,9 @@ mps_device_ops._fields_ = [
     ("clear", CFUNCTYPE(c_int, c_void_p, c_void_p, c_uint64)), ("copy", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
     ("rows", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch))),
     ("values", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
-    ("wait", CFUNCTYPE(c_int, c_void_p)), ("failure", CFUNCTYPE(c_void_p, c_void_p)),
-    ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)), ("begin", CFUNCTYPE(c_int, c_void_p)),
-    ("end", CFUNCTYPE(None, c_void_p)),
+    ("gather", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), c_void_p)), ("wait", CFUNCTYPE(c_int, c_void_p)),
+    ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
+    ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)),
 ]
 mps_device_info._fields_ = [
     ("struct_size", c_uint32), ("host_calls", c_int32), ("name", c_char_p), ("launches", c_int64), ("waits", c_int64),

@@ -15,7 +15,8 @@ static mps_status check_table(mps__context *c, const mps_device_ops *ops)
                ops->api, MPS_DEVICE_API);
     MPS__CHECK(c, ops->name && ops->name[0], "mps_device_ops.name is NULL or empty");
     const bool complete = ops->room && ops->give && ops->upload && ops->download && ops->clear &&
-                          ops->copy && ops->rows && ops->values && ops->wait && ops->failure;
+                          ops->copy && ops->rows && ops->values && ops->gather && ops->wait &&
+                          ops->failure;
     MPS__CHECK(c, complete,
                "device '%s' lacks a function: all but 'outdated', 'begin' and 'end' are needed",
                ops->name);
@@ -191,12 +192,18 @@ static const char *name_of(const char *file)
     return folder ? folder + 1 : file;
 }
 
-void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima)
+/* What is alike in all launches. */
+static void complete(mps__device *d, mps_launch *launch)
 {
-    if (d->failed || launch->n == 0) return;
     launch->struct_size = sizeof *launch;
     launch->file = name_of(launch->file);
     d->info.launches++;
+}
+
+void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima)
+{
+    if (d->failed || launch->n == 0) return;
+    complete(d, launch);
     if (launch->sums == 0 && launch->maxima == 0) {
         note(d, d->ops.rows(d->ops.self, launch));
         return;
@@ -205,4 +212,11 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
     d->info.waits++;
     d->info.bytes_down += (int64_t)((size_t)launch->sums * sizeof *sums +
                                     (size_t)launch->maxima * sizeof *maxima);
+}
+
+void mps__device_gather(mps__device *d, mps_launch *launch, void *to)
+{
+    if (d->failed || launch->n == 0) return;
+    complete(d, launch);
+    note(d, d->ops.gather(d->ops.self, launch, to));
 }

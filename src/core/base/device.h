@@ -60,6 +60,9 @@ void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t numbe
 /* Rows, sums and maxima of a launch whose struct_size and file are set here; none if n is 0. */
 void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, double *maxima);
 
+/* The same without waiting: sums, then maxima, go to memory there. */
+void mps__device_gather(mps__device *d, mps_launch *launch, void *to);
+
 /* The device whose parallel-for this is; NULL: loops run on the host. */
 mps__device *mps__device_of(const mps_parallel *p);
 

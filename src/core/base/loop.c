@@ -77,26 +77,39 @@ void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t d
     run_loop(p, &(job){.loop = loop, .dim = dim, .fields = fields}, n, MPS__ROWS_CHEAP);
 }
 
+static mps_launch launch_of(const job *k, int64_t n)
+{
+    return (mps_launch){.file = k->values->file,
+                        .name = k->values->name,
+                        .dim = k->dim,
+                        .n = n,
+                        .fields = k->fields,
+                        .bytes = k->values->bytes,
+                        .sums = k->values->sums,
+                        .maxima = k->values->maxima,
+                        .run = launch_values,
+                        .host = k};
+}
+
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum)
 {
     job k = {.values = values, .dim = dim, .fields = fields};
     const mps_exact_values wanted = {values->sums, values->maxima, sum, maximum};
     mps__device *d = mps__device_of(p);
-    mps_launch l = {.file = values->file,
-                    .name = values->name,
-                    .dim = dim,
-                    .n = n,
-                    .fields = fields,
-                    .bytes = values->bytes,
-                    .sums = values->sums,
-                    .maxima = values->maxima,
-                    .run = launch_values,
-                    .host = &k};
+    mps_launch l = launch_of(&k, n);
     if (d)
         mps__device_launch(d, &l, sum, maximum);
     else
         mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
+}
+
+void mps__values_gather(mps__device *d, const mps__values *values, int32_t dim, int64_t n,
+                        const void *fields, void *to)
+{
+    const job k = {.values = values, .dim = dim, .fields = fields};
+    mps_launch l = launch_of(&k, n);
+    mps__device_gather(d, &l, to);
 }
 
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,

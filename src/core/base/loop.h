@@ -9,6 +9,8 @@
 #include <mps/stage.h>
 #include <string.h>
 
+struct mps__device;
+
 /* A loop over rows; MPS__LOOP() defines one. */
 typedef struct mps__loop {
     const char *name;
@@ -42,6 +44,9 @@ void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t d
 /* Terms of rows 0..n-1 are added to the sums, their maxima raised. */
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum);
+/* The same on a device, without waiting: sums, then maxima, of the rows alone go to memory there. */
+void mps__values_gather(struct mps__device *d, const mps__values *values, int32_t dim, int64_t n,
+                        const void *fields, void *to);
 /* First row of 0..n-1 that the test of MPS__FIRST() finds, n if there is none. */
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
                        const void *fields);

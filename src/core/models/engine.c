@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Arrays of a step at two places. */
 #include "engine.h"
+#include "later.h"
 #include <string.h>
 
 enum {
@@ -118,6 +119,7 @@ void mps__twins_free(mps__twins *t)
     for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
     give_back(t, &t->order);
     give_back(t, &t->moved);
+    give_back(t, &t->results);
     give_back(t, &t->constants);
     if (t->constant) mps__free(t->device.context, t->constant);
     mps__device_end(&t->device);
@@ -259,6 +261,7 @@ mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
     if (!t->step) return MPS_OK;
     for (int32_t k = 0; k < FIELDS; k++) t->list[k].bytes = 0;
     MPS__TRY(open_constants(t));
+    MPS__TRY(fit(t, &t->results, MPS__LATER_ROOM + sizeof(double), sizeof(double)));
     MPS__TRY(open_fields(t));
     for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT]; k++)
         for (int32_t u = 0; u < p->call[k].use_count; u++)
@@ -359,16 +362,6 @@ void *mps__twins_given(mps__twins *t, void *array, bool all)
     if (!all) copy(t, twin, twin->host, t->place);
     change(t, twin, twin->host, t->place, all);
     return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
-}
-
-mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes)
-{
-    const mps__twin *twin = t->open ? find(t, array) : NULL;
-    if (twin && twin->old[MPS__ON_HOST])
-        mps__device_download(&t->device, out, address(twin, array), bytes);
-    else
-        memcpy(out, array, bytes);
-    return mps__device_status(&t->device);
 }
 
 static void see_pairs(mps__twins *t, mps_stencil *s)

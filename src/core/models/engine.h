@@ -57,6 +57,7 @@ typedef struct mps__twins {
     mps__twin block[MPS__BLOCKS];
     mps__twin scratch[MPS__SCRATCH]; /* of verbs */
     mps__twin order, moved;          /* of a permutation: the order, a field in it */
+    mps__twin results;               /* sums and maxima that the host has not seen yet */
     mps__twin constants;             /* settings of models, viscosities, tensions, */
     double *constant;                /* as they were copied last */
     int64_t told;                    /* mps__models.changes when the log was told; -1: never */
@@ -100,11 +101,14 @@ int32_t mps__twins_go(mps__twins *t, int32_t place);
 void *mps__twins_seen(mps__twins *t, const void *array);
 /* The same for loops that write it. `all`: they write all that is read afterwards. */
 void *mps__twins_given(mps__twins *t, void *array, bool all);
-/* Copy `bytes` of the newest values of such an array, from where they are. MPS_E_PLUGIN */
-mps_status mps__twins_fetch(mps__twins *t, const void *array, void *out, size_t bytes);
 /* Arrays of a view, likewise; with those of constants where loops see it. */
 void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
+/* Room at the device for MPS__LATER_ROOM bytes and a number. */
+static inline void *mps__twins_results(mps__twins *t)
+{
+    return t->results.data;
+}
 /* Block of scratch for a verb at the device, zeroed. NULL: no memory. */
 void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes);
 /* The same not zeroed, for what lives until the next verb. */

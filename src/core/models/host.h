@@ -4,6 +4,7 @@
 #define MPS_CORE_HOST_H
 
 #include "engine.h"
+#include "later.h"
 #include "motion.h"
 #include "parallel.h"
 #include "reaction.h"
@@ -46,6 +47,7 @@ typedef struct mps__host {
     mps__sets sets;    /* bodies */
     mps__plan plan;
     mps__twins twins;
+    mps__laters laters;       /* of the step in progress */
     const mps_view *view;     /* of the step in progress, with arrays of the host */
     mps__reactions reactions; /* of the step in progress */
     mps__gas gas;             /* likewise */
@@ -74,6 +76,19 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 /* Maxima, of all ranks; `maxima` are lower bounds before. */
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima);
+/* The same without waiting: `then` gets the values at mps__host_settle() at the latest, and maxima have no lower bounds. */
+void mps__host_sum_later(mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
+                         const void *fields, mps__then then);
+void mps__host_max_later(mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
+                         const void *fields, mps__then then);
+/* What needs no values, after all that waits. */
+void mps__host_do_later(mps__host *h, mps__then then);
+/* All that waits is done, with one copy from the device. If that has failed, it is dropped: the step fails. later.c */
+void mps__host_settle(mps__host *h);
+/* The same, with a number of at most 8 bytes that the copy brings too: `array` is of the device. */
+void mps__host_settle_with(mps__host *h, const void *array, void *out, size_t bytes);
+/* Place at the device for values to come. */
+void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then);
 /* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
 const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);

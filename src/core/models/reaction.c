@@ -39,13 +39,9 @@ static int32_t line_of(const mps_stage *s, const mps__host *h)
     return s->hook == MPS_FORCE ? MPS__LINE_VISCOUS : MPS__LINE_COLLISION;
 }
 
-/* Add the rows of one place. @return non-zero: not finite */
-static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
+/* Add the sums of one place. @return non-zero: not finite */
+static int add_sums(mps_stage *s, mps__host *h, int32_t place, const mps_exact sums[6])
 {
-    mps_exact sums[6] = {{{0}, 0, 0}};
-    double none[1];
-    k->wanted = place;
-    mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
     for (int d = 0; d < 6; d++) {
         if (!isfinite(mps_exact_value(&sums[d])))
             return mps_stage_fail(s, "the acceleration that a solid gives the fluid, by "
@@ -54,6 +50,36 @@ static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
         mps_exact_join(&h->reactions.sum[line_of(s, h)][d], &sums[d]);
     }
     return 0;
+}
+
+/* Add the rows of one place. @return non-zero: not finite */
+static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
+{
+    mps_exact sums[6] = {{{0}, 0, 0}};
+    double none[1];
+    k->wanted = place;
+    mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
+    return add_sums(s, h, place, sums);
+}
+
+/* Those of all places at a device, where it is not known which occur: one copy has the sums. */
+static int add_there(mps_stage *s, mps__host *h, report *k)
+{
+    mps_exact sums[MPS__REACTIONS][6];
+    const int32_t places = 1 + h->particles->parts;
+    const size_t bytes = (size_t)places * sizeof sums[0];
+    char *there = (char *)mps_stage_scratch(s, (int64_t)(bytes / sizeof(double)));
+    int failed = !there;
+    for (int32_t p = 0; p < places && !failed; p++) {
+        k->wanted = MPS__REACTION_WHOLE + p;
+        mps__values_gather(&h->twins.device, &add_rows, s->view->dim, s->view->n, k,
+                           there + (size_t)p * sizeof sums[0]);
+    }
+    if (!failed) mps__device_download(&h->twins.device, sums, there, bytes);
+    failed = failed || h->twins.device.failed;
+    for (int32_t p = 0; p < places && !failed; p++)
+        failed = add_sums(s, h, MPS__REACTION_WHOLE + p, sums[p]);
+    return failed;
 }
 
 /* The solid nearest to a fluid row, of those as near the one with the least id; -1: there is none. */
@@ -90,25 +116,6 @@ MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, 
 }
 MPS_ROWS(place_rows, place_row, place_fields)
 
-/* Which places occur. @return non-zero: no memory, or a device has failed */
-static int note_used(mps_stage *s, mps__host *h, const int32_t *place, bool *used)
-{
-    const int64_t n = s->view->n;
-    const bool there = h->twins.place == MPS__ON_DEVICE;
-    if (there) {
-        const mps_view *view = mps__host_begin_serial(s);
-        int32_t *own = mps_stage_scratch_integers(s, n);
-        if (own) {
-            mps__device_download(&h->twins.device, own, place, (size_t)n * sizeof *own);
-            h->scratch_used--;
-        }
-        mps__host_end_serial(s, view);
-        place = h->twins.device.failed ? NULL : own;
-    }
-    for (int64_t i = 0; place && i < n; i++) used[place[i]] = true;
-    return !place;
-}
-
 /* Each row acts on the part beside it. */
 static int add_beside(mps_stage *s, mps__host *h, report *k)
 {
@@ -118,7 +125,9 @@ static int add_beside(mps_stage *s, mps__host *h, report *k)
     mps_stage_rows(
         s, &place_rows,
         &(place_fields){k->acceleration, mps__twins_seen(&h->twins, h->particles->part), k->place});
-    int failed = note_used(s, h, k->place, used);
+    if (h->twins.place == MPS__ON_DEVICE) return add_there(s, h, k);
+    for (int64_t i = 0; i < s->view->n; i++) used[k->place[i]] = true;
+    int failed = 0;
     for (int32_t place = MPS__REACTION_WHOLE; place < MPS__REACTIONS && !failed; place++)
         if (used[place + 1]) failed = add_place(s, h, k, place);
     return failed;

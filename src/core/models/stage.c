@@ -21,7 +21,8 @@ typedef struct job {
     const mps_rows *rows;
     const mps_sums *sums;
     const void *fields;
-    int32_t count; /* sums */
+    int32_t count; /* sums or maxima */
+    bool raises;   /* maxima */
 } job;
 
 static void own_rows(void *argument, int64_t begin, int64_t end)
@@ -106,10 +107,10 @@ static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *
     part own = {.k = k, .sums = sums, .maxima = maxima};
     if (k->rows)
         k->rows->run(k->v, k->fields, begin, end);
-    else if (sums)
-        sum_rows(&own, begin, end);
-    else
+    else if (k->raises)
         raise_rows(&own, begin, end);
+    else
+        sum_rows(&own, begin, end);
 }
 
 /* Source file of a loop of the library; loops of others run on the host, and those of older headers have none. */
@@ -119,8 +120,8 @@ static const char *file_of(const job *k)
     return k->sums->struct_size >= sizeof *k->sums ? k->sums->file : "";
 }
 
-/* Rows, `count` sums or maxima, of which one pointer is NULL. */
-static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima)
+/* Rows, `count` sums or maxima, which go to memory there if `to` is not NULL. */
+static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima, void *to)
 {
     mps_view v = *given->v;
     job k = *given;
@@ -135,11 +136,14 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
                     .view = &v,
                     .fields = k.fields,
                     .bytes = k.rows ? k.rows->bytes : k.sums->bytes,
-                    .sums = sums ? k.count : 0,
-                    .maxima = maxima ? k.count : 0,
+                    .sums = k.raises ? 0 : k.count,
+                    .maxima = k.raises ? k.count : 0,
                     .run = run_launch,
                     .host = &k};
-    mps__device_launch(d, &l, sums, maxima);
+    if (to)
+        mps__device_gather(d, &l, to);
+    else
+        mps__device_launch(d, &l, sums, maxima);
 }
 
 /* ---- loops of calls ---- */
@@ -149,7 +153,7 @@ void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows,
     job k = {.h = h, .v = v, .rows = rows, .fields = fields};
     mps__device *d = mps__device_of(h->parallel);
     if (d)
-        launch(d, &k, NULL, NULL);
+        launch(d, &k, NULL, NULL, NULL);
     else
         mps_parallel_rows(h->parallel, v->n, run_rows, &k);
 }
@@ -161,7 +165,7 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
     mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
     mps__device *d = mps__device_of(h->parallel);
     if (d)
-        launch(d, &k, sum, NULL);
+        launch(d, &k, sum, NULL, NULL);
     else
         mps_exact_rows(h->parallel, v->n, MPS_PARALLEL_LEAST, run_sums, &k,
                        &(mps_exact_values){.sums = count, .sum = sum});
@@ -172,13 +176,42 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
 void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
                    const void *fields, double *maxima)
 {
-    job k = {.h = h, .v = v, .sums = raise, .fields = fields, .count = count};
+    job k = {.h = h, .v = v, .sums = raise, .fields = fields, .count = count, .raises = true};
     mps__device *d = mps__device_of(h->parallel);
     if (d)
-        launch(d, &k, NULL, maxima);
+        launch(d, &k, NULL, maxima, NULL);
     else
         mps_parallel_max(h->parallel, v->n, count, run_maxima, &k, maxima);
     mps__ranks_max(h->ghosts->ranks, count, maxima);
+}
+
+void mps__host_sum_later(mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
+                         const void *fields, mps__then then)
+{
+    const job k = {.h = h, .v = v, .sums = add, .fields = fields, .count = count};
+    double sums[MPS_PARALLEL_VALUES];
+    mps__device *d = mps__device_of(h->parallel);
+    if (d) {
+        launch(d, &k, NULL, NULL, mps__laters_place(h, count, 0, then));
+        return;
+    }
+    mps__host_sum(h, v, count, add, fields, sums);
+    then.run(then.owner, sums);
+}
+
+void mps__host_max_later(mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
+                         const void *fields, mps__then then)
+{
+    const job k = {.h = h, .v = v, .sums = raise, .fields = fields, .count = count, .raises = true};
+    double maxima[MPS_PARALLEL_VALUES];
+    mps__device *d = mps__device_of(h->parallel);
+    if (d) {
+        launch(d, &k, NULL, NULL, mps__laters_place(h, 0, count, then));
+        return;
+    }
+    for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
+    mps__host_max(h, v, count, raise, fields, maxima);
+    then.run(then.owner, maxima);
 }
 
 /* ---- what verbs call ---- */

@@ -15,17 +15,30 @@ typedef struct terms {
     double centre[3], v[3], omega[3]; /* of the tank's motion, a rigid velocity about `centre` */
 } terms;
 
-static void sum_terms(const mps__world *w, const mps_sums *add, terms *f, int32_t count,
-                      double *values)
+/* What all of them see. */
+static void complete(const mps__world *w, mps_view *v, terms *f)
 {
     const double dp = w->setup.dp;
-    mps_view v;
-    mps__world_view(w, &v);
+    mps__world_view(w, v);
     f->rho = mps__seen(w, w->particles.rho);
     f->u = mps__seen(w, w->particles.u);
     f->region = mps__seen(w, w->particles.region);
     f->cell = w->setup.dim == 2 ? dp * dp : dp * dp * dp;
+}
+
+static void sum_terms(const mps__world *w, const mps_sums *add, terms *f, int32_t count,
+                      double *values)
+{
+    mps_view v;
+    complete(w, &v, f);
     mps__host_sum(&w->host, &v, count, add, f, values);
+}
+
+static void sum_later(mps__world *w, const mps_sums *add, terms *f, int32_t count, mps__then then)
+{
+    mps_view v;
+    complete(w, &v, f);
+    mps__host_sum_later(&w->host, &v, count, add, f, then);
 }
 
 /* Kinetic energy and momentum. */
@@ -59,7 +72,18 @@ void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
     sum_terms(w, &add_flows, &(terms){0}, 1 + w->setup.dim, s);
-    *bulk = (mps__bulk){.kinetic = s[0], .momentum = {s[1], s[2], s[3]}};
+    mps__budget_take_flow(w, s, bulk);
+}
+
+void mps__budget_flow_later(mps__world *w, mps__then then)
+{
+    sum_later(w, &add_flows, &(terms){0}, 1 + w->setup.dim, then);
+}
+
+void mps__budget_take_flow(const mps__world *w, const double *sums, mps__bulk *bulk)
+{
+    *bulk = (mps__bulk){.kinetic = sums[0]};
+    for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = sums[1 + d];
 }
 
 MPS_ROW void add_push(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
@@ -76,7 +100,18 @@ void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push
 {
     double s[TERMS] = {0};
     sum_terms(w, &add_pushes, &(terms){.data = a, .dt = dt}, 2 + w->setup.dim, s);
-    *push = (mps__push){s[0], s[1], {s[2], s[3], s[4]}};
+    mps__budget_take_push(w, s, push);
+}
+
+void mps__budget_push_later(mps__world *w, const double *a, double dt, mps__then then)
+{
+    sum_later(w, &add_pushes, &(terms){.data = a, .dt = dt}, 2 + w->setup.dim, then);
+}
+
+void mps__budget_take_push(const mps__world *w, const double *sums, mps__push *push)
+{
+    *push = (mps__push){.energy = sums[0], .mass = sums[1]};
+    for (int d = 0; d < w->setup.dim; d++) push->impulse[d] = sums[2 + d];
 }
 
 /* Add half the velocity from one pose to another. Its turn is the part of (R1 R0^T - 1)/dt without strain, of what the walls really do. */
@@ -133,13 +168,12 @@ MPS_ROW void add_work(const int dim, const mps_view *v, const terms *f, int64_t 
 }
 MPS_SUMS(add_works, add_work, terms)
 
-double mps__budget_wall_work(const mps__world *w, const mps__pose *end, const double *a, double dt)
+void mps__budget_wall_work(mps__world *w, const mps__pose *end, const double *a, double dt,
+                           mps__then then)
 {
     terms k = mean_move(w, end, dt);
-    double work;
     k.data = a;
-    sum_terms(w, &add_works, &k, 1, &work);
-    return work;
+    sum_later(w, &add_works, &k, 1, then);
 }
 
 double mps__budget_tank_work(const mps__world *w, const mps__pose *end, const double force[6],
@@ -163,15 +197,12 @@ MPS_ROW void add_wall(const int dim, const mps_view *v, const terms *f, int64_t 
 }
 MPS_SUMS(add_walls, add_wall, terms)
 
-double mps__budget_wall_force(const mps__world *w, const mps__pose *end, const double *pressure,
-                              double dt, double force[3])
+void mps__budget_wall_force(mps__world *w, const mps__pose *end, const double *pressure, double dt,
+                            mps__then then)
 {
     terms k = mean_move(w, end, dt);
-    double s[TERMS] = {0};
     k.data = pressure;
-    sum_terms(w, &add_walls, &k, 1 + w->setup.dim, s);
-    for (int d = 0; d < 3; d++) force[d] = d < w->setup.dim ? s[d] : 0;
-    return s[w->setup.dim];
+    sum_later(w, &add_walls, &k, 1 + w->setup.dim, then);
 }
 
 typedef struct body_fields {
@@ -206,11 +237,9 @@ MPS_ROW void add_lift(const int dim, const mps_view *v, const terms *f, int64_t 
 }
 MPS_SUMS(add_lifts, add_lift, terms)
 
-double mps__budget_lift(const mps__world *w, const double *dx)
+void mps__budget_lift(mps__world *w, const double *dx, mps__then then)
 {
-    double lift;
-    sum_terms(w, &add_lifts, &(terms){.data = dx}, 1, &lift);
-    return lift;
+    sum_later(w, &add_lifts, &(terms){.data = dx}, 1, then);
 }
 
 void mps__budget_book_added(const mps__world *w, mps__budget *b)
@@ -244,9 +273,7 @@ MPS_ROW void add_deviation(const int dim, const mps_view *v, const terms *f, int
 }
 MPS_SUMS(add_deviations, add_deviation, terms)
 
-double mps__budget_mean_deviation(const mps__world *w, const double *deviation)
+void mps__budget_deviation(mps__world *w, const double *deviation, mps__then then)
 {
-    double s[2];
-    sum_terms(w, &add_deviations, &(terms){.data = deviation}, 2, s);
-    return s[1] > 0 ? s[0] / s[1] : 0;
+    sum_later(w, &add_deviations, &(terms){.data = deviation}, 2, then);
 }

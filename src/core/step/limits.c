@@ -64,12 +64,14 @@ static mps_status follow_walls(mps__world *w, double longest, limit *l)
     double trial = fmin(l->dt, longest);
     if (allowed <= 0 || !w->motion.fn) return MPS_OK;
     for (int k = 0; k < trials; k++) {
-        double way = 0;
-        for (int part = 1; part <= 2; part++) {
-            mps__pose pose;
-            MPS__TRY(mps__motion_pose(&w->motion, w->state.t + trial / part, &pose));
-            way = fmax(way, part * mps__world_way_of_walls(w, &pose, trial / part));
-        }
+        double of_whole, of_half;
+        mps__pose whole, half;
+        MPS__TRY(mps__motion_pose(&w->motion, w->state.t + trial, &whole));
+        MPS__TRY(mps__motion_pose(&w->motion, w->state.t + trial / 2, &half));
+        mps__world_way_of_walls(w, &whole, trial, &of_whole);
+        mps__world_way_of_walls(w, &half, trial / 2, &of_half);
+        mps__host_settle(&w->host);
+        const double way = fmax(of_whole, 2 * of_half);
         if (way <= allowed * (1 + 1e-9)) return MPS_OK;
         const double speed = way / trial;
         trial *= k < trials / 2 && way > 1.02 * allowed ? sqrt(allowed / way) : allowed / way;

@@ -134,17 +134,21 @@ MPS_ROW void raise_wall_way(const int dim, const mps_view *v, const ways *f, int
 }
 MPS_SUMS(raise_wall_ways, raise_wall_way, ways)
 
-double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt)
+static void take_way(void *way, const double *most)
+{
+    *(double *)way = most[0] > 0 ? sqrt(most[0]) : 0;
+}
+
+void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way)
 {
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
     const ways f = {
         .ref = mps__seen(w, w->particles.ref), .u = mps__seen(w, w->particles.u), .dt = dt};
-    double most = 0;
     mps_view v;
     view_of(w, pose, &v);
-    mps__host_max(&w->host, &v, 1, &raise_wall_ways, &f, &most);
+    *way = 0; /* where a device fails */
+    mps__host_max_later(&w->host, &v, 1, &raise_wall_ways, &f, (mps__then){take_way, way});
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
-    return sqrt(most);
 }
 
 mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
@@ -183,6 +187,15 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
 }
 MPS_SUMS(raise_results, raise_result, result)
 
+typedef struct found {
+    double fastest, failed; /* the negative of the least id; -INFINITY: all are sound */
+} found;
+
+static void take_result(void *to, const double *most)
+{
+    *(found *)to = (found){most[0] > 0 ? most[0] : 0, most[1]};
+}
+
 /* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
 mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
                                    mps_step_info *info)
@@ -192,12 +205,13 @@ mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_mo
                       .u = mps__seen(w, all->u),
                       .p = mps__seen(w, all->p),
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
-    double v[2] = {0, -INFINITY};
-    mps__host_max(&w->host, s, 2, &raise_results, &f, v);
-    info->max_speed = v[0];
-    info->cfl = v[0] * s->dt / s->dp;
-    if (isinf(v[1])) return MPS_OK;
-    const int64_t worst = place_of(w, (int64_t)-v[1]);
+    found v = {0, -INFINITY};
+    mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, &v});
+    mps__host_settle(&w->host);
+    info->max_speed = v.fastest;
+    info->cfl = v.fastest * s->dt / s->dp;
+    if (isinf(v.failed)) return MPS_OK;
+    const int64_t worst = place_of(w, (int64_t)-v.failed);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     mps__twins_fields_ready(&w->host.twins);
     const double *u = all->u + worst * s->dim,

@@ -23,8 +23,9 @@ mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, doubl
 /* Fail with `refusal` where a motion carries the tank farther. moves.c */
 mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
                                  mps_status refusal);
-/* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt. moves.c */
-double mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt);
+/* Farthest way [m] of the walls from the present pose to another, and of the fluid as they see it if it keeps its velocity for dt; there after
+ * mps__host_settle(). moves.c */
+void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way);
 
 /* ---- a step in progress ---- */
 
@@ -48,6 +49,8 @@ typedef struct mps__step {
     mps__budget budget;
     double momentum[3];    /* of the prediction */
     mps__bulk bulk;        /* of the velocities that were booked last */
+    double body_work;      /* of solids that models move */
+    double lift;           /* potential energy lost by displacements */
     mps__push before_line; /* what was so before the verbs of `line` in the hook in progress */
     int32_t line;          /* of the budget, of the last call: MPS__LINE_..., */
     int32_t line_hook;     /* in this hook */
@@ -97,7 +100,7 @@ mps_status mps__step_place_solids(mps__world *w);
 void mps__step_keep_places(mps__world *w, const double *place, const double *area);
 /* Velocities of the solids over this step and accelerations of the tank; whether its velocity jumped. */
 extern const mps__pass mps__pass_tank, mps__pass_jump;
-/* Whether it jumps, by accelerations of all particles; may be asked again. */
+/* Whether it jumps, by accelerations of all particles; may be asked again. Known after mps__host_settle(). */
 void mps__step_note_jump(mps_stage *s, const double *acceleration);
 
 /* ---- the fluid: step_fluid.c ---- */

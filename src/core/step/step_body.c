@@ -212,6 +212,7 @@ static mps_status move_body(mps_stage *s)
     MPS__TRY(check_way(s, &f));
     mps_stage_rows(s, &correct_rows, &f);
     mps__step_note_jump(s, f.tank);
+    mps__host_settle(&w->host);
     return MPS_OK;
 }
 

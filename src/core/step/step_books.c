@@ -73,13 +73,13 @@ void mps__step_book_line(mps__step *q, bool after)
 }
 
 /* Velocities are those that the last state was booked with: no verb changes them before. */
-static mps_status book_forces(mps_stage *stage)
+static void add_forces(void *step, const double *sums)
 {
-    mps__step *q = mps__step_of(stage);
+    mps__step *q = step;
     const mps_view *s = &q->view;
     mps_momentum *m = &q->budget.momentum;
     mps__push push;
-    mps__budget_push(q->w, stage->data[0], s->dt, &push);
+    mps__budget_take_push(q->w, sums, &push);
     q->budget.viscous -= push.energy;
     for (int d = 0; d < s->dim; d++) {
         const double weight = push.mass * s->dt * s->g[d];
@@ -87,6 +87,12 @@ static mps_status book_forces(mps_stage *stage)
         m->gravity[d] += weight;
         q->momentum[d] = q->budget.last.momentum[d] + push.impulse[d] + weight;
     }
+}
+
+static mps_status book_forces(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__budget_push_later(q->w, s->data[0], q->view.dt, (mps__then){add_forces, q});
     return MPS_OK;
 }
 
@@ -102,22 +108,37 @@ const mps__pass mps__pass_book_forces = {.name = "book_forces",
                                          .uses = book_forces_uses,
                                          .run = book_forces};
 
+static void add_wall_work(void *step, const double *sums)
+{
+    mps__step *q = step;
+    q->budget.wall_work_momentum += q->body_work + sums[0];
+}
+
+static void add_wall_force(void *step, const double *sums)
+{
+    mps__step *q = step;
+    const int32_t dim = q->view.dim;
+    q->budget.wall_work_probes += q->body_work + sums[dim];
+    for (int d = 0; d < dim; d++) q->budget.momentum.walls[d] += q->view.dt * sums[d];
+}
+
+static void add_pressure(void *step, const double *sums)
+{
+    mps__step *q = step;
+    mps__budget_take_flow(q->w, sums, &q->bulk);
+    for (int d = 0; d < q->view.dim; d++)
+        q->budget.momentum.pressure[d] += q->bulk.momentum[d] - q->momentum[d];
+}
+
 static mps_status book_pressure(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    mps_momentum *m = &q->budget.momentum;
-    double force[3];
-    const double bodies = mps__budget_body_work(w, s->data[1], s->data[4]);
-    q->budget.wall_work_momentum += bodies +
-                                    mps__budget_wall_work(w, &q->pose, s->data[0], q->view.dt);
-    q->budget.wall_work_probes += bodies + mps__budget_wall_force(w, &q->pose, s->data[1],
-                                                                  q->view.dt, force);
-    mps__budget_sum_flow(w, &q->bulk);
-    for (int d = 0; d < w->setup.dim; d++) {
-        m->pressure[d] += q->bulk.momentum[d] - q->momentum[d];
-        m->walls[d] += q->view.dt * force[d];
-    }
+    const double dt = q->view.dt;
+    q->body_work = mps__budget_body_work(w, s->data[1], s->data[4]);
+    mps__budget_wall_work(w, &q->pose, s->data[0], dt, (mps__then){add_wall_work, q});
+    mps__budget_wall_force(w, &q->pose, s->data[1], dt, (mps__then){add_wall_force, q});
+    mps__budget_flow_later(w, (mps__then){add_pressure, q});
     return MPS_OK;
 }
 
@@ -136,16 +157,21 @@ const mps__pass mps__pass_book_pressure = {.name = "book_pressure",
                                            .uses = book_pressure_uses,
                                            .run = book_pressure};
 
-static mps_status book_collisions(mps_stage *s)
+static void add_collisions(void *step, const double *sums)
 {
-    mps__step *q = mps__step_of(s);
+    mps__step *q = step;
     mps__bulk after;
-    if (!acts(q, MPS_VELOCITY)) return MPS_OK;
-    mps__budget_sum_flow(q->w, &after);
+    mps__budget_take_flow(q->w, sums, &after);
     q->budget.collision += q->bulk.kinetic - after.kinetic;
     for (int d = 0; d < q->w->setup.dim; d++)
         q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
     q->bulk = after;
+}
+
+static mps_status book_collisions(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    if (acts(q, MPS_VELOCITY)) mps__budget_flow_later(q->w, (mps__then){add_collisions, q});
     return MPS_OK;
 }
 
@@ -161,15 +187,28 @@ const mps__pass mps__pass_book_collisions = {.name = "book_collisions",
                                              .uses = book_collisions_uses,
                                              .run = book_collisions};
 
+static void take_lift(void *step, const double *sums)
+{
+    mps__step *q = step;
+    q->lift = sums[0];
+}
+
+static void add_shift(void *step, const double *sums)
+{
+    mps__step *q = step;
+    mps__bulk after;
+    mps__budget_take_flow(q->w, sums, &after);
+    q->budget.shift += q->bulk.kinetic - after.kinetic + q->lift;
+    for (int d = 0; d < q->w->setup.dim; d++)
+        q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+}
+
 static mps_status book_shift(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__bulk after;
     if (!acts(q, MPS_SHIFT)) return MPS_OK;
-    mps__budget_sum_flow(q->w, &after);
-    q->budget.shift += q->bulk.kinetic - after.kinetic + mps__budget_lift(q->w, s->data[0]);
-    for (int d = 0; d < q->w->setup.dim; d++)
-        q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+    mps__budget_lift(q->w, s->data[0], (mps__then){take_lift, q});
+    mps__budget_flow_later(q->w, (mps__then){add_shift, q});
     return MPS_OK;
 }
 
@@ -205,6 +244,7 @@ static mps_status stop_at_plates(mps_stage *s)
     mps__world *w = q->w;
     mps__bulk moved, stopped;
     if (w->lists.screens.count == 0) return MPS_OK;
+    mps__host_settle(&w->host); /* what is booked here comes after it */
     mps__budget_sum(w, &moved);
     stop_drops(s, w);
     mps__budget_sum(w, &stopped);

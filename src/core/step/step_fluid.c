@@ -11,7 +11,12 @@ static mps_status find_near_rows(mps_stage *s)
     int64_t pairs = 0;
     mps__neighbours_near(l, mps__seen(w, l->begin), mps__seen(w, l->middle),
                          mps__given(w, l->near_begin));
-    MPS__TRY(mps__twins_fetch(t, l->near_begin + l->n, &pairs, sizeof pairs));
+    if (mps__device_of(l->parallel))
+        mps__host_settle_with(&w->host, mps__twins_seen(t, l->near_begin + l->n), &pairs,
+                              sizeof pairs);
+    else
+        pairs = l->near_begin[l->n];
+    MPS__TRY(mps__device_status(&t->device));
     MPS__TRY(mps__neighbours_near_fit(l, pairs));
     MPS__TRY(
         mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, pairs, sizeof *l->near_col, false));
@@ -247,6 +252,20 @@ MPS_ROW void count_row(const int dim, const mps_view *v, const keep_fields *f, i
 }
 MPS_SUMS(count_rows, count_row, keep_fields)
 
+static void take_counts(void *step, const double *counts)
+{
+    mps__step *q = step;
+    q->info.surface = (int64_t)counts[SURFACE];
+    q->info.separated = (int64_t)counts[SEPARATED];
+}
+
+/* Mean volume deviation of inner fluid; 0 if there is none. */
+static void take_deviation(void *step, const double *sums)
+{
+    mps__step *q = step;
+    q->deviation = sums[1] > 0 ? sums[0] / sums[1] : 0;
+}
+
 static mps_status keep(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -256,13 +275,11 @@ static mps_status keep(mps_stage *s)
                            .region = s->data[2],
                            .load = mps__given(w, w->particles.load),
                            .held = mps__given(w, w->particles.held)};
-    double counts[COUNTS];
     mps_stage_rows(s, &keep_rows, &f);
-    mps_stage_sum(s, COUNTS, &count_rows, &f, counts);
-    q->info.surface = (int64_t)counts[SURFACE];
-    q->info.separated = (int64_t)counts[SEPARATED];
+    mps__host_sum_later(&w->host, s->view, COUNTS, &count_rows, &f, (mps__then){take_counts, q});
     mps__step_keep_places(w, s->data[4], s->data[5]);
-    q->deviation = mps__budget_mean_deviation(w, s->data[3]);
+    mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
+    mps__host_settle(&w->host);
     return MPS_OK;
 }
 

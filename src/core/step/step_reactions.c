@@ -31,9 +31,9 @@ static void book_kinetic(const mps__reactions *r, double *const line[MPS__LINES]
     b->layers = now;
 }
 
-static mps_status book_reactions(mps_stage *s)
+static void add_reactions(void *step, const double *none)
 {
-    mps__step *q = mps__step_of(s);
+    mps__step *q = step;
     mps__world *w = q->w;
     mps__budget *b = &q->budget;
     mps__reactions *r = &w->host.reactions;
@@ -42,9 +42,10 @@ static mps_status book_reactions(mps_stage *s)
                                       [MPS__LINE_FRICTION] = &b->friction,
                                       [MPS__LINE_PLUGINS] = &b->plugins};
     double value[6];
+    (void)none;
     memset(q->reaction, 0, sizeof q->reaction);
     book_kinetic(r, line, b);
-    if (!r->any) return MPS_OK;
+    if (!r->any) return;
     mps__ranks_sum(w->ghosts.ranks, 6 * (MPS__REACTION_WHOLE + 1 + w->particles.parts), r->sum[0]);
     for (int k = 0; k < MPS__LINES; k++) {
         value_of(r, k, value);
@@ -59,6 +60,13 @@ static mps_status book_reactions(mps_stage *s)
         to_tank(&w->motion.now, value, q->reaction[k].force);
         to_tank(&w->motion.now, value + 3, q->reaction[k].moment);
     }
+}
+
+/* In its order among the other parts of the budget: sums of doubles depend on it. */
+static mps_status book_reactions(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    mps__host_do_later(&q->w->host, (mps__then){add_reactions, q});
     return MPS_OK;
 }
 

@@ -142,20 +142,25 @@ MPS_SUMS(raise_accelerations, raise_acceleration, jump_fields)
 
 /* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. Velocities are means over a step, so
  * half a step lies on either side of the change: over dt alone a steady acceleration would jump where a step is cut short. */
-void mps__step_note_jump(mps_stage *s, const double *acceleration)
+static void take_jump(void *step, const double *most)
 {
-    mps__step *q = mps__step_of(s);
-    mps__world *w = q->w;
-    double most;
-    mps_stage_max(s, 1, &raise_accelerations, &(jump_fields){acceleration}, &most);
+    mps__step *q = step;
+    const mps__world *w = q->w;
     const double dt = q->view.dt,
                  change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
-    q->jump = (mps__jump){change * sqrt(fmax(most, 0)),
+    q->jump = (mps__jump){change * sqrt(fmax(most[0], 0)),
                           w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
     if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp &&
         q->jump.accel > 2 * w->state.jump.accel)
         q->jump.since = 0;
     q->stage.since_jump = q->jump.since;
+}
+
+void mps__step_note_jump(mps_stage *s, const double *acceleration)
+{
+    mps__step *q = mps__step_of(s);
+    mps__host_max_later(&q->w->host, s->view, 1, &raise_accelerations, &(jump_fields){acceleration},
+                        (mps__then){take_jump, q});
 }
 
 static mps_status note_jump(mps_stage *s)
