@@ -34,7 +34,7 @@ static inline void solve(mps_sim *sim, mps__device *d, const mps_ppe_problem *pr
                          answer *a)
 {
     mps__solvers *s = &sim->world.solvers;
-    *a = (answer){.p = malloc((size_t)problem->n * sizeof(double))};
+    *a = (answer){.p = malloc((size_t)(problem->n + 1) * sizeof(double))};
     assert_non_null(a->p);
     for (int64_t i = 0; i < problem->n; i++) a->p[i] = first;
     sim->context.log = keep_log;
@@ -109,6 +109,7 @@ static inline void without_weights(kit_system *s)
 static inline void same_answers(const char *what, const char *preconditioner, const answer *host,
                                 const answer *there, int64_t n)
 {
+    /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bytes count */
     if (memcmp(&host->result, &there->result, sizeof host->result) != 0)
         fail_msg("%s, %s: host reason %d, %d iterations, residual %.17g, divergence %.17g; device "
                  "%d, %d, %.17g, %.17g",

@@ -62,10 +62,10 @@ static void costs(void **state)
                                       .re = 3.1,
                                       .contrast = 1};
     /* auxgrid: one grid, and three */
-    static const cost table[] = {{"none", small, 7, 1},
-                                 {"jacobi", small, 8, 1},
-                                 {"auxgrid", small, 12, 1},
-                                 {"auxgrid", large, 34, 1}};
+    const cost table[] = {{"none", small, 7, 1},
+                          {"jacobi", small, 8, 1},
+                          {"auxgrid", small, 12, 1},
+                          {"auxgrid", large, 34, 1}};
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         const cost *c = &table[k];
