@@ -270,9 +270,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {132, 150}, {38, 46}, {20, 30}, {100, 125}},
-        {"imps", 3, {145, 165}, {38, 47}, {7, 14}, {80, 105}},
-        {"mmps", 2, {135, 155}, {38, 47}, {45, 70}, {150, 190}},
+        {"imps", 2, {155, 175}, {36, 44}, {18, 28}, {85, 105}},
+        {"imps", 3, {162, 182}, {37, 45}, {7, 14}, {80, 100}},
+        {"mmps", 2, {148, 170}, {36, 46}, {95, 125}, {135, 175}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {

@@ -2,6 +2,7 @@
 /* Lists of neighbours at two places: what the host does with them between two steps, and what a failed copy leaves of them. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
+#include <mps/couple.h>
 
 /* Rows of the host are made at the places after a step, those of the device are older by then. */
 static void get_rows(mps_sim *sim)
@@ -40,6 +41,8 @@ static void copies_that_fail(void **state)
     int64_t failed = 0, torn = 0;
     shadow s;
     (void)state;
+    ASSERT_OK(host, mps_load_watch(host, MPS_LOAD_MASS)); /* it reads rows on the host in a step */
+    ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_MASS));
     shadow_attach(&s, sim);
     for (int64_t k = 0; k < 120; k++) {
         const int64_t before = s.downloads;

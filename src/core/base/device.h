@@ -63,12 +63,6 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
 /* The same without waiting: sums, then maxima, go to memory there. */
 void mps__device_gather(mps__device *d, mps_launch *launch, void *to);
 
-/* The same without waiting: sums, then maxima, go to memory there. */
-void mps__device_gather(mps__device *d, mps_launch *launch, void *to);
-
-/* The same without waiting: sums, then maxima, go to memory there. */
-void mps__device_gather(mps__device *d, mps_launch *launch, void *to);
-
 /* The device whose parallel-for this is; NULL: loops run on the host. */
 mps__device *mps__device_of(const mps_parallel *p);
 
