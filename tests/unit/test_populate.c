@@ -52,14 +52,22 @@ static int call_wrongly(mps_stage *s)
 {
     const double x[2] = {0.2, top}, nowhere[2] = {0.2, NAN};
     switch (wrong) {
-    case 0: return mps_stage_add(s, 7, 1, x, x);
-    case 1: return mps_stage_add(s, -1, 1, x, x);
-    case 2: return mps_stage_add(s, 0, -1, x, x);
-    case 3: return mps_stage_add(s, 0, 1, NULL, x);
-    case 4: return mps_stage_add(s, 0, 1, x, NULL);
-    case 5: return mps_stage_add(s, 0, 1, nowhere, x);
-    case 6: return mps_stage_add(s, 0, 1, x, nowhere);
-    default: return mps_stage_remove(s, NULL);
+    case 0:
+        return mps_stage_add(s, 7, 1, x, x);
+    case 1:
+        return mps_stage_add(s, -1, 1, x, x);
+    case 2:
+        return mps_stage_add(s, 0, -1, x, x);
+    case 3:
+        return mps_stage_add(s, 0, 1, NULL, x);
+    case 4:
+        return mps_stage_add(s, 0, 1, x, NULL);
+    case 5:
+        return mps_stage_add(s, 0, 1, nowhere, x);
+    case 6:
+        return mps_stage_add(s, 0, 1, x, nowhere);
+    default:
+        return mps_stage_remove(s, NULL);
     }
 }
 static int add_late(mps_stage *s)
