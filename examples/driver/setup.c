@@ -134,12 +134,14 @@ static void set_time(driver *d)
 static bool log_average(driver *d, const char *text)
 {
     double t, average, crossing;
-    char name[32], line[400];
-    const char *rest = strstr(text, "' averages over ");
-    if (!rest || sscanf(text, "t = %lf s: probe %*d '%31[^']", &t, name) != 2 ||
-        sscanf(rest, "' averages over %lf s; liquid crosses a spacing in %lf s", &average,
+    int probe;
+    char name[32] = "", line[400];
+    const char *rest = strstr(text, " averages over ");
+    if (!rest || sscanf(text, "t = %lf s: probe %d '%31[^']", &t, &probe, name) < 2 ||
+        sscanf(rest, " averages over %lf s; liquid crosses a spacing in %lf s", &average,
                &crossing) != 2)
         return false;
+    if (!name[0]) snprintf(name, sizeof name, "probe %d", probe);
     snprintf(line, sizeof line,
              "warning: t = %.6g s: %s is a mean over %g s; liquid crosses a spacing in %g s, and "
              "pressures of impacts over less than that depend on the time step: --sensor-average "

@@ -62,7 +62,7 @@ def quick():
     run("coefficients", "box.yaml", "--degrees", "roll roll", code=2, text="named twice")
     run("coefficients", "box.yaml", "--omega", "5 rad/s", "--period", "1 s", code=2, text="not both")
     run("coefficients", "box.yaml", "--period", "1.2 kg", code=2, text="time")
-    run("coefficients", "box.yaml", "--amplitude", "2 s", code=2, text="motion.surge")
+    run("coefficients", "box.yaml", "--amplitude", "2 s", code=2, text="--amplitude: surge: '2 s'")
     with open("voyage.csv", "w", encoding="ascii") as out:
         out.write("time[s],surge[m]\n0,0\n1,0.1\n")
     run("coefficients", "box.yaml", "--set", "motion={file: voyage.csv}", code=2, text="--degrees")
