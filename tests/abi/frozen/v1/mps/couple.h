@@ -130,21 +130,27 @@ MPS_API mps_status mps_load_watch(mps_sim *sim, int32_t what);
  *
  *    F = sum_i m_i (g - (u_i(t) - u_i(t - dt))/dt) + sum_h m_h (g - a_h),
  *
- *  m_i = rho dp^dim, half of it on the surface, m_h = rho dp/2 times the wetted area, a_h the
- *  acceleration of the wall along its normal and of the liquid beside it along the face. The moment
- *  likewise, about the place that the centre has at the beginning of the step. F contains all that
- *  the liquid exchanges with solids: pressure, collisions, friction. It is the mean over this one
- *  step. Force probes (MPS_PROBE_FORCE) show pressures on walls instead, by default averaged over
- *  past steps: they must not drive a body.
+ *  m_i = rho dp^dim, half of it on the surface, m_h = rho dp/2 times the wetted area (a quarter of
+ *  a cell where two walls of a tank meet, an eighth where three meet; three quarters at an edge of
+ *  a block, seven eighths at its corner), a_h the acceleration of the wall along its normal and of
+ *  the liquid beside it along the face. The moment likewise, about the place that the centre has at
+ *  the beginning of the step. In a wave its part by the weight errs by a share of about dp over the
+ *  size of the tank: half cells at the ends grow with the wave, whose liquid is in particles that
+ *  came, and those on the floor do not move with it. F contains all that the liquid exchanges with
+ *  solids: pressure, collisions, friction. It is the mean over this one step. Force probes
+ *  (MPS_PROBE_FORCE) show pressures on walls instead, by default averaged over past steps: they
+ *  must not drive a body.
  *
  *  With the acceleration a of the tank, the change of its velocity over dt,
  *
  *    F = F0 - A a.
  *
  *  A is the added mass, F0 the load without acceleration. F is linear in a as long as the same
- *  walls separate (separation.void), else to some per cent. A body of mass m that moves with the
- *  tank under other forces Q has m a = Q + F, so a = (Q + F0)/(m + A): with it a step may be done
- *  again, where with m a = Q + F alone it diverges for A > m.
+ *  walls separate (separation.void), else to some per cent. With a compressible gas A is the
+ *  tangent of one step and depends on dt: gas is compressed as far as sound travels in a step.
+ *  A body of mass m that moves with the tank under other forces Q has m a = Q + F, so
+ *  a = (Q + F0)/(m + A): with it a step may be done again, where with m a = Q + F alone it diverges
+ *  for A > m.
  *
  *  The first step feels half of a jump of the velocity: start bodies at rest. Solids that models
  *  move in the tank (body.free) count as part of it. On many ranks all have the same values. */

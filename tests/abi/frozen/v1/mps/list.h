@@ -113,7 +113,7 @@ typedef struct mps_pass_info {
     /** Kept 0. */
     int32_t reserved;
     /** Calls since the models changed last, or since mps_profile_reset(). Calls of steps that
-     *  failed count. */
+     *  failed count. A pass with nothing to do in a step is not called: "body" without a body. */
     int64_t calls;
     /** Wall clock of these calls [s]; on many ranks that of this rank. */
     double seconds;

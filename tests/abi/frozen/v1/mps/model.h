@@ -173,6 +173,11 @@ typedef struct mps_model_ops {
     double (*reach)(const double *setting, double dp);
     /** [part_count] names of solids without particles that it stands for, see mps/reaction.h */
     const char *const *parts;
+    /** NULL, or look at numbers of mps_stage_state() that a checkpoint brings, which may be of
+     *  another build of the model or forged. The checkpoint is refused with `why` if it returns
+     *  non-zero, and nothing has changed then.
+     *  @param numbers  [count], finite @param why  [size] out: what does not fit, one line */
+    int (*check)(const double *numbers, int64_t count, char *why, size_t size);
 } mps_model_ops;
 
 /** Register a model on a handle; the table is copied. Then choose it with mps_model_use().

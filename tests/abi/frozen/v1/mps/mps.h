@@ -3,6 +3,7 @@
 #ifndef MPS_MPS_H
 #define MPS_MPS_H
 
+#include <mps/body.h>
 #include <mps/couple.h>
 #include <mps/exact.h>
 #include <mps/geometry.h>

@@ -167,6 +167,14 @@ static inline int64_t mps_stencil_column(const mps_stencil *s, int64_t k)
     return s->col[k];
 }
 
+/** Pairs that a row function puts into arrays of its own before it works on them: `most` where a
+ *  processor then works on several at a time, 1 on a device. The results are the same. */
+#ifdef MPS_DEVICE
+#define MPS_PAIRS(most) 1
+#else
+#define MPS_PAIRS(most) (most)
+#endif
+
 /** One pair of a row, for the inner loops of plug-ins. */
 typedef struct mps_pair {
     /** r_ij = x_j - x_i [m]; the third is 0 in 2-D */

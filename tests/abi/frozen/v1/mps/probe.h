@@ -44,7 +44,8 @@ enum {
      *  friction.history, part "sides"; plug-ins. Its integral over time is -(walls + reaction) of
      *  mps_momentum. It has no part in drops that thin plates stop, nor in shifts. It is for
      *  records: a force that is averaged (the default) lags and must not drive a body, which
-     *  mps_load_get() is for. */
+     *  mps_load_get() is for. A warning is logged once if mps_motion_pose_set() moves the tank
+     *  while no load is watched. */
     MPS_PROBE_FORCE = 3
 };
 

@@ -3,12 +3,12 @@
  *
  *  A verb gets a stage. Its loops run over rows, particles in their present order: a row function
  *  gets a view, which has numbers and arrays only, and the fields that the verb gives to the loop.
- *
  *  Notation: n particles, dim = 2 or 3. */
 #ifndef MPS_STAGE_H
 #define MPS_STAGE_H
 
 #include <mps/flux.h>
+#include <mps/numbers.h>
 #include <mps/operators.h>
 #include <mps/types.h>
 
@@ -255,6 +255,8 @@ typedef struct mps_rows {
     const char *name;
     /** What it does. */
     mps_rows_fn run;
+    /** Source file that defines it. */
+    const char *file;
 } mps_rows;
 
 /** Sums or maxima over rows; MPS_SUMS() defines them. */
@@ -267,6 +269,8 @@ typedef struct mps_sums {
     const char *name;
     /** What it does. */
     mps_sums_fn run;
+    /** Source file that defines it. */
+    const char *file;
 } mps_sums;
 
 /** Run a loop over all rows, in parts at the same time. Returns when all are done.
@@ -406,6 +410,7 @@ MPS_API int mps_stage_add(mps_stage *s, int32_t phase, int64_t count, const doub
 
 /** Let fluid out, in MPS_POPULATE: rows that leave the simulation when the verb returns. The budget
  *  books them as added, with a negative sign; they do not count as lost.
+ *  What several calls of a step name leaves together.
  *  @param leaves  [n] not 0 for these rows; solids stay whatever it says
  *  @return 0, or non-zero after a failure (the error is set) */
 MPS_API int mps_stage_remove(mps_stage *s, const int32_t *leaves);
@@ -422,8 +427,7 @@ MPS_API int32_t *mps_stage_scratch_integers(mps_stage *s, int64_t count);
  *  @param pockets  >= 0 @param volume  of all [m3, m2 in 2-D]
  *  @param pressure  of the pocket farthest from the ambient pressure, less that [Pa]
  *  @param work  on the liquid in this step [J]
- *  @return 0, or non-zero after a failure (another hook, a number that is not finite; the error is
- *          set) */
+ *  @return 0, or non-zero after a failure (another hook, a number not finite; the error is set) */
 MPS_API int mps_stage_gas(mps_stage *s, int32_t pockets, double volume, double pressure,
                           double work);
 /** Numbers of a model that belong to no particle, e.g. amounts of gas. They last as long as the
@@ -449,6 +453,13 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
 #define MPS_ROW static inline
 #endif
 
+/** Source file of a loop, without folders where the compiler knows that. */
+#if defined(__FILE_NAME__)
+#define MPS_FILE __FILE_NAME__
+#else
+#define MPS_FILE __FILE__
+#endif
+
 /** Define the mps_rows `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i);
  *  compiled for dim = 2 and 3, so that loops over dim unroll. View and fields are copies of the
@@ -463,7 +474,7 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
         else                                                                                       \
             for (int64_t i = begin; i < end; i++) row(3, &own_, &given_, i);                       \
     }                                                                                              \
-    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, name##_run};
+    static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, name##_run, MPS_FILE};
 
 /** Define the mps_sums `name` from a row function
  *    MPS_ROW void row(const int dim, const mps_view *v, const type *fields, int64_t i,
@@ -482,7 +493,7 @@ MPS_API int mps_stage_fail(mps_stage *s, const char *format, ...);
             for (int64_t i = begin; i < end; i++)                                                  \
                 row(3, &own_, &given_, i, values_ + (i - begin) * stride_);                        \
     }                                                                                              \
-    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, name##_run};
+    static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, name##_run, MPS_FILE};
 
 MPS_END_DECLS
 
