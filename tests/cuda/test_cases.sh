@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Each case gives the same bytes of probes.csv, frames and checkpoint on the host and on a GPU, and a checkpoint of one goes on on the other.
-# The GPU is the stand-in for the driver, which runs the kernels by OpenCL. 77: no OpenCL runs here.
+# The GPU is the stand-in for the driver, which runs the kernels by OpenCL. 77: no OpenCL runs here. Cases have the first and the second half there
+# in turn; those that are named have both.
 # usage: test_cases.sh PROGRAM CASES FOLDER_OF_STANDIN FOLDER_OF_PLUGIN KERNELS [NAME ..]
 program=$1 cases=$2 standin=$3 plugin=$4 kernels=$5
 shift 5
@@ -10,7 +11,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 export LC_ALL=C
-failed=0 runs=0
+failed=0 runs=0 turn=0 both=$#
 
 fail() {
     echo "FAILED: $*: $(tail -3 log)"
@@ -33,7 +34,9 @@ tested() { # name, case, time, options..
     halves host host "$name.host" "$@" || return
     [ -s "$name.host/checkpoint.mps" ] || fail "$name: no checkpoint"
     [ "$(wc -l < "$name.host/probes.csv")" -ge 3 ] || fail "$name: $(wc -l < "$name.host/probes.csv") rows"
-    for folder in "$name.gpu_host" "$name.host_gpu"; do
+    local folders=("$name.gpu_host" "$name.host_gpu")
+    [ "$both" -gt 0 ] || folders=("${folders[turn++ % 2]}")
+    for folder in "${folders[@]}"; do
         case $folder in *gpu_host) halves gpu host "$folder" "$@" ;; *) halves host gpu "$folder" "$@" ;; esac || continue
         for file in probes.csv momentum.csv checkpoint.mps frames; do
             diff -rq "$name.host/$file" "$folder/$file" > log 2>&1 || fail "$name"
