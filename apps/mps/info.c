@@ -21,8 +21,10 @@ typedef struct head {
 /* Whether the beginning holds text: no byte that only binary files have. */
 static bool is_text(const head *h)
 {
-    for (size_t i = 0; i < h->count; i++)
-        if ((unsigned char)h->text[i] < ' ' && !memchr("\t\n\r\f", h->text[i], 4)) return false;
+    for (size_t i = 0; i < h->count; i++) {
+        const char c = h->text[i];
+        if ((unsigned char)c < ' ' && c != '\t' && c != '\n' && c != '\r' && c != '\f') return false;
+    }
     return true;
 }
 
