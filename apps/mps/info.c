@@ -23,7 +23,8 @@ static bool is_text(const head *h)
 {
     for (size_t i = 0; i < h->count; i++) {
         const char c = h->text[i];
-        if ((unsigned char)c < ' ' && c != '\t' && c != '\n' && c != '\r' && c != '\f') return false;
+        if ((unsigned char)c < ' ' && c != '\t' && c != '\n' && c != '\r' && c != '\f')
+            return false;
     }
     return true;
 }
