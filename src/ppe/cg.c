@@ -168,7 +168,8 @@ static numbers run(const mps__cg *c, mps__device *d, room *there, int *reason)
         }
         mps__device_download(d, &n, &there->numbers, sizeof n);
     }
-    return d->failed ? (numbers){.stop = BROKEN} : n;
+    if (d->failed) n = (numbers){.stop = BROKEN};
+    return n;
 }
 
 int mps__cg_run(mps__cg *c)

@@ -68,12 +68,12 @@ static int add_there(mps_stage *s, mps__host *h, report *k)
     mps_exact sums[MPS__REACTIONS][6];
     const int32_t places = 1 + h->particles->parts;
     const size_t bytes = (size_t)places * sizeof sums[0];
-    char *there = (char *)mps_stage_scratch(s, (int64_t)(bytes / sizeof(double)));
+    void *there = mps_stage_scratch(s, (int64_t)(bytes / sizeof(double)));
     int failed = !there;
     for (int32_t p = 0; p < places && !failed; p++) {
         k->wanted = MPS__REACTION_WHOLE + p;
         mps__values_gather(&h->twins.device, &add_rows, s->view->dim, s->view->n, k,
-                           there + (size_t)p * sizeof sums[0]);
+                           (char *)there + (size_t)p * sizeof sums[0]);
     }
     if (!failed) mps__device_download(&h->twins.device, sums, there, bytes);
     failed = failed || h->twins.device.failed;
