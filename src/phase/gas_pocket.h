@@ -99,7 +99,7 @@ typedef struct mps__pocket_faces {
     double *row, *slope, *number; /* channels that are written */
     double row_volume;            /* of a particle, in areas of a face [m] */
     int32_t from;                 /* first component of a batch of sums */
-    int32_t aside;                /* component whose flux nobody needs; -1: none */
+    int32_t aside;                /* component whose flux is left out; -1: none */
 } mps__pocket_faces;
 
 /* Whether this step looks for no voids. While there is no pocket it is enough to look after the

@@ -291,7 +291,7 @@ void mps__grid_gather(const mps__grid_away *a, int k);
 
 /* Factors of its matrix. */
 void mps__grid_factorise_last(mps__grid *g);
-/* The upper triangle, which nobody reads on the host, takes the lower one: threads of a device read along rows. */
+/* The host reads the lower triangle alone. The upper one becomes the same, because threads of a device read along rows. */
 void mps__grid_mirror_last(mps__grid *g);
 /* Its x from its b. */
 void mps__grid_solve_last(const mps__grid *g);

@@ -115,42 +115,28 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
 /* Define the mps__values `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
  * which sets values[0..sums-1] to the terms of the row, each 0 before, and raises the maxima behind them. */
-#define MPS__VALUES(name, row, type, sums, maxima)                                        \
-    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
-                           mps_exact *sum_, double *maximum_)                             \
-    {                                                                                     \
-        const type given_ = *(const type *)fields_;                                       \
-        double own_[(sums) + (maxima)];                                                   \
-        mps__terms terms_;                                                                \
-        mps__terms_begin(&terms_, sum_, sums);                                            \
-        memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double));                       \
-        for (int64_t i = begin; i < end; i++) {                                           \
-            memset(own_, 0, (sums) * sizeof(double));                                     \
-            if (dim_ == 2)                                                                \
-                row(2, &given_, i, own_);                                                 \
-            else                                                                          \
-                row(3, &given_, i, own_);                                                 \
-            if ((sums) > 0) mps__terms_add(&terms_, own_);                                \
-        }                                                                                 \
-        mps__terms_end(&terms_);                                                          \
-        memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
-    }                                                                                     \
-    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
+#define MPS__VALUES(name, row, type, sums, maxima)                                                \
+    MPS__VALUES_OF(name, (dim_ == 2 ? row(2, &given_, i, own_) : row(3, &given_, i, own_)), type, \
+                   sums, maxima)
 
 /* MPS__VALUES() of rows that do not look at the dimension. */
-#define MPS__VALUES_ANY(name, row, type, sums, maxima)                                    \
+#define MPS__VALUES_ANY(name, row, type, sums, maxima) \
+    MPS__VALUES_OF(name, row(MPS__ANY_DIM, &given_, i, own_), type, sums, maxima)
+
+/* Both; `work` is what a row does, with dim_, given_, i and own_. */
+#define MPS__VALUES_OF(name, work, type, sums, maxima)                                    \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
                            mps_exact *sum_, double *maximum_)                             \
     {                                                                                     \
         const type given_ = *(const type *)fields_;                                       \
         double own_[(sums) + (maxima)];                                                   \
-        (void)dim_;                                                                       \
         mps__terms terms_;                                                                \
+        (void)dim_;                                                                       \
         mps__terms_begin(&terms_, sum_, sums);                                            \
         memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double));                       \
         for (int64_t i = begin; i < end; i++) {                                           \
             memset(own_, 0, (sums) * sizeof(double));                                     \
-            row(MPS__ANY_DIM, &given_, i, own_);                                          \
+            work;                                                                         \
             if ((sums) > 0) mps__terms_add(&terms_, own_);                                \
         }                                                                                 \
         mps__terms_end(&terms_);                                                          \
