@@ -85,7 +85,8 @@ typedef struct mps_device_ops {
     int (*clear)(void *self, void *to, uint64_t bytes);
     /** Copy on the device; the two do not overlap. */
     int (*copy)(void *self, void *to, const void *from, uint64_t bytes);
-    /** Run a loop whose rows write arrays of their own row only. */
+    /** Run a loop whose rows write arrays of their own row only, or add integers to numbers of
+     *  others by atomic operations. */
     int (*rows)(void *self, const mps_launch *launch);
     /** Run sums and maxima, and wait for them. The sums of any parts of the rows are joined by
      *  mps_exact_join(), in any order. A NaN does not count as maximum.

@@ -20,6 +20,19 @@ enum {
         65536 /* many ranks: cells of a grid from which on each rank works on its own cells only */
 };
 
+/* Room that grows and is kept; its contents are not. */
+typedef struct mps__grid_room {
+    void *at;
+    int64_t bytes;
+} mps__grid_room;
+
+/* Cells of the finer grid that add to each cell, on a device: those of cell c end before end[c], where those of c + 1 begin. */
+typedef struct mps__grid_adding {
+    int64_t *end;  /* [cells], and room to sum them up */
+    int32_t *from; /* ascending for each */
+    float *part;   /* of what is left of their right side */
+} mps__grid_adding;
+
 /* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells.
  *
  * Order of the cells: first the `red` ones, whose coordinates have an even sum, then the black ones (a cell's neighbours have
@@ -28,13 +41,16 @@ enum {
  *
  * The cells about a cell are numbered by one digit of base three for each axis: 0 the same coordinate, 1 one less, 2 one more. */
 typedef struct mps__grid_level {
-    int64_t points, point_capacity;
-    int64_t cells, red, cell_capacity;
+    int64_t points, cells, red;
+    mps__grid_room point_room, cell_room, adding_room;
     int32_t *home; /* [points] cell that holds the point, -1: none */
     uint8_t *
         side; /* [points] bit a: which side of its cell the point is nearer to along axis a, 0 below, 1 above */
     float *
         share; /* [points << dim] how much a point takes from the cells on that side; 0 or a sum of 1 */
+    int32_t *list; /* [points] the points by cell, in their order in each */
+    int32_t *
+        start; /* [cells + 1] the first in `list` of each cell; of the first grid on a host, of each turn */
     int64_t *key;   /* [cells] packed coordinates */
     int32_t *about; /* [cells * 3^dim] the cells about each, `cells` where there is none */
     int32_t *
@@ -46,13 +62,9 @@ typedef struct mps__grid_level {
     double *count;   /* [cells] particles */
     double *b,
         *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
+    mps__grid_adding adding; /* on a device, but of the first grid */
+    double *rest;            /* [red] residuals, on a device, but of the last grid */
 } mps__grid_level;
-
-/* Room that grows and is kept; its contents are not. */
-typedef struct mps__grid_room {
-    void *at;
-    int64_t bytes;
-} mps__grid_room;
 
 enum { MPS__GRID_DIVIDED_ROOMS = 5 };
 enum {
@@ -131,9 +143,19 @@ typedef struct mps__grid_ranks {
     mps__grid_divided level[MPS__GRID_LEVELS];
 } mps__grid_ranks;
 
+/* Points of a grid in the order of their cells, on a device. Each array has two halves, of which one is sorted into the other. */
+typedef struct mps__grid_sorted {
+    uint64_t *key; /* UINT64_MAX: none */
+    int32_t *order;
+    int64_t *number;         /* [points] cells that have begun up to a place */
+    const uint64_t *key_now; /* the half that is in order */
+    const int32_t *order_now;
+} mps__grid_sorted;
+
 typedef struct mps__grid {
     mps_allocator allocator;
     const mps_parallel *parallel;
+    mps__device *device; /* whose memory the arrays are in, and where loops run; NULL: here */
     int dim;
     bool one; /* one density everywhere */
     double corner[3], size,
@@ -147,50 +169,55 @@ typedef struct mps__grid {
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points]; free when all grids are there */
-    int32_t *list;       /* [points] particles by turn of their cell, in their order in each */
-    int64_t turn_capacity;
-    int32_t *turn;  /* [cells] cells of the first grid by key, whatever their colour */
-    int32_t *start; /* [cells + 1] first particle in `list` of the cell of each turn */
+    mps__grid_room turn_room;
+    int32_t *
+        turn; /* [cells] cells of the first grid as particles meet them; NULL: each turn is that cell */
     int64_t order_capacity;
-    int32_t *order;       /* [2 * cells] to sort the cells */
+    int32_t *order;           /* [2 * cells] to sort the cells */
+    mps__grid_room sort_room; /* to sort points, on a device */
+    mps__grid_sorted sorted;
     size_t part_capacity; /* bytes */
     void *
         parts; /* what the particles of each cell add to the cells about it, or the faces of two densities */
     double *factor; /* [direct * direct] L of the last grid's L D L' */
     double *pivot;  /* [direct] 1/D, 0 where D is */
+    double *bad;    /* [levels] whether a diagonal is not finite, on a device */
     int64_t
         turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
     mps__grid_ranks ranks;
-    const struct mps__grid_away *away; /* these grids are on a device; NULL: here */
-    /* during a set-up: the equation on a device, whose rows are here, but not yet its matrix; NULL: all of it is here */
-    const mps__equation_there *source;
 } mps__grid;
-
-/* Cells of the finer grid that add to each cell, on a device. */
-typedef struct mps__grid_adding {
-    int32_t *first; /* [cells + 1] */
-    int32_t *from;  /* [first[cells]] ascending for each */
-    float *part;    /* [first[cells]] of what is left of their right side */
-} mps__grid_adding;
-
-/* Copies on a device of grids that the host has made. */
-typedef struct mps__grid_away {
-    bool there; /* they are those of the present equation */
-    mps__device *device;
-    void *room; /* all arrays there */
-    size_t bytes;
-    mps__grid_room lists;                          /* those of `list` */
-    mps__grid_adding list[MPS__GRID_LEVELS];       /* here, but for level 0 */
-    mps__grid_adding there_list[MPS__GRID_LEVELS]; /* there */
-    double *rest[MPS__GRID_LEVELS];                /* [red] residuals, there */
-    double *inverse;                               /* of the diagonal, there */
-    mps__grid grid;                                /* with the arrays there that a cycle uses */
-} mps__grid_away;
 
 static inline bool mps__grid_many(const mps__grid *g)
 {
     return g->ranks.table.ranks > 1;
 }
+
+/* A cell and those about it. */
+MPS_ROW int mps__grid_all(const int dim)
+{
+    return dim == 2 ? 9 : MPS__GRID_ABOUT;
+}
+
+/* ---- memory (auxgrid_memory.c): it grows and is kept; false or NULL: there is none ---- */
+
+void mps__grid_release(mps__grid *g);
+/* Room to find the cells of so many points. */
+bool mps__grid_reserve(mps__grid *g, int64_t points);
+/* Room for the points and the cells of a level, whose numbers are known. */
+bool mps__grid_reserve_points(mps__grid *g, mps__grid_level *l);
+bool mps__grid_reserve_cells(mps__grid *g, mps__grid_level *l);
+/* Room for the residuals of a grid and the lists of the coarser one. */
+bool mps__grid_reserve_adding(mps__grid *g, mps__grid_level *fine, mps__grid_level *l);
+/* Room to sort points. */
+bool mps__grid_reserve_sorted(mps__grid *g, int64_t points);
+bool mps__grid_reserve_table(mps__grid *g, int64_t size);
+bool mps__grid_reserve_order(mps__grid *g, int64_t cells);
+/* Room for so many bytes in `parts`. */
+bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
+/* Slots for so many cells. */
+int64_t mps__grid_table_for(int64_t cells);
+/* Room that is kept. */
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
 
 /* ---- cells (auxgrid_cells.c) ---- */
 
@@ -199,37 +226,64 @@ static inline int64_t mps__grid_coordinate(int64_t key, int axis)
     return key >> (axis * MPS__GRID_BITS) & ((1 << MPS__GRID_BITS) - 1);
 }
 
-void mps__grid_release(mps__grid *g);
-/* Room to find the cells of so many points. */
-bool mps__grid_reserve(mps__grid *g, int64_t points);
-/* Room for so many bytes in `parts`. */
-bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
-/* Room for `turn` and `start`. */
-bool mps__grid_reserve_turns(mps__grid *g, int64_t cells);
+static inline bool mps__grid_is_red(int64_t key)
+{
+    return ((mps__grid_coordinate(key, 0) + mps__grid_coordinate(key, 1) +
+             mps__grid_coordinate(key, 2)) &
+            1) == 0;
+}
+
 /* Keys of the cells from point_key, where the keys then are, each once. Returns their number, -1 when out of memory. */
 int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points);
-/* Cells and neighbours of a level from point_key; links and sums are zero. False when out of memory. */
+/* Cells and neighbours of a level from point_key; links are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
+/* On a host: the points of each cell of a coarser grid. A device has them from the order of the points. */
+void mps__grid_list_cells(const mps__grid *g, mps__grid_level *l);
 
-/* ---- coefficients (auxgrid_links.c) ---- */
+/* ---- cells on a device (auxgrid_sort.c) ---- */
 
+/* Points in the order of their cells, which are counted. */
+void mps__grid_sort(mps__grid *g, mps__grid_level *l);
+/* Then homes, keys, lists of points, neighbours. */
+void mps__grid_number(mps__grid *g, mps__grid_level *l);
+
+/* ---- coefficients of the first grid (auxgrid_links.c) ---- */
+
+/* What the rows have in common. */
+typedef struct mps__grid_common {
+    double square;   /* mean of r_ij^2 */
+    double least[3]; /* [dim] the largest of -x */
+} mps__grid_common;
+
+/* Look at all rows. Returns 0, or why they are refused, the same on all ranks: too many unknowns on one, or a diagonal entry. */
+int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common);
 /* Conductivity of each row, from which the cell size follows. */
-void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem);
+void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square);
 /* Corner of the first grid. */
-void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem);
+void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem, const double *least);
 /* Coordinates of the cells of the first particles into point_key. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t points);
 /* Coefficients of the first grid and the shares of the particles. Returns 0 or a reason of failure. */
 int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
-/* All coarser grids. False when out of memory. */
-bool mps__grid_coarsen(mps__grid *g);
+
+/* Where particles are among the cells of the first grid. */
+typedef struct mps__grid_positions {
+    const double *x;
+    double corner[3], per_size;
+} mps__grid_positions;
+
+static inline mps__grid_positions mps__grid_positions_of(const mps__grid *g,
+                                                         const mps_ppe_problem *problem)
+{
+    return (mps__grid_positions){
+        problem->x, {g->corner[0], g->corner[1], g->corner[2]}, g->per_size};
+}
 
 /* Position of a particle in cells, within the range of coordinates. */
-static inline double mps__grid_position(const mps__grid *g, const mps_ppe_problem *problem,
-                                        int64_t i, int a)
+MPS_ROW double mps__grid_position(const int dim, const mps__grid_positions *p, int64_t i, int a)
 {
     const double most = (1 << MPS__GRID_BITS) - 0.5;
-    double u = problem->x[i * problem->dim + a] * g->per_size - g->corner[a];
+    double u = p->x[i * dim + a] * p->per_size - p->corner[a];
     u = u > 0 ? u : 0;
     return u < most ? u : most;
 }
@@ -237,16 +291,25 @@ static inline double mps__grid_position(const mps__grid *g, const mps_ppe_proble
 /* Links of the first grid from the pairs of particles, for more than one density (auxgrid_wires.c). Returns 0 or a reason of failure. */
 int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem);
 
+/* ---- coarser grids (auxgrid_coarse.c) ---- */
+
+/* All of them. False when out of memory. */
+bool mps__grid_coarsen(mps__grid *g);
+/* On a device: right side of level k from the residuals of the finer one. */
+void mps__grid_gather(const mps__grid *g, int k);
+
 /* ---- transfer (auxgrid_transfer.c) ---- */
 
 /* Cells on the side that a point is nearer to, as numbers about its cell: [side][corner]. */
 extern const uint8_t mps__grid_corner[8][8];
+/* Number of a cell about its neighbour: each step the other way. */
+extern const uint8_t mps__grid_opposite[MPS__GRID_ABOUT];
 
 /* Particles by cell of the first grid. False when out of memory. */
 bool mps__grid_list(mps__grid *g);
-/* Shares and sides of the particles. */
+/* Shares and sides of the particles, whose shifts take the place of their conductivities in point_kappa. */
 void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem);
-/* The same of the cells of the finer grid, whose conductivities are in point_kappa. */
+/* The same of the cells of the finer grid. */
 void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
 /* Sum the values [n] of the particles into the right side of the first grid. Returns 0 or a reason of failure. */
 int mps__grid_restrict(mps__grid *g, const double *values, double scale);
@@ -265,8 +328,6 @@ int mps__grid_ranks_exchange(mps__grid *g);
 /* Values of cells: those of each rank's own cells to all ranks. */
 int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
                             double *const *array);
-/* Room that is kept; NULL: out of memory. */
-void *mps__grid_room_of(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
 
 /* ---- divided grids (auxgrid_divided.c) ---- */
 
@@ -278,21 +339,10 @@ void mps__grid_divided_release(mps__grid *g);
 /* Values of the cells of a plan from their owners. */
 int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values);
 
-/* ---- grids on a device (auxgrid_device.c) ---- */
-
-/* Copies of the grids, which stay as they are; `inverse` [points]. Returns 0 or a reason of failure. */
-int mps__grid_send(mps__grid_away *a, mps__grid *g, mps__device *d, const double *inverse);
-/* Give back the memory of the device. */
-void mps__grid_leave(mps__grid_away *a);
-/* Right side of level k from the residuals of the finer one. */
-void mps__grid_gather(const mps__grid_away *a, int k);
-
 /* ---- the last grid (auxgrid_last.c) ---- */
 
 /* Factors of its matrix. */
 void mps__grid_factorise_last(mps__grid *g);
-/* The host reads the lower triangle alone. The upper one becomes the same, because threads of a device read along rows. */
-void mps__grid_mirror_last(mps__grid *g);
 /* Its x from its b. */
 void mps__grid_solve_last(const mps__grid *g);
 

@@ -1,174 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: memory, and finding the cells that hold something through a hash table of their coordinates. */
+/* auxgrid: the cells that hold something. The host finds them through a hash table of their coordinates, a device by sorting the points. */
 #include "auxgrid.h"
 #include "kernels.h"
-
-/* ---- memory: it grows and is kept ---- */
-
-static void drop_points(mps__grid *g, mps__grid_level *l)
-{
-    mps__give(&g->allocator, l->home);
-    mps__give(&g->allocator, l->side);
-    mps__give(&g->allocator, l->share);
-    l->home = NULL;
-    l->side = NULL;
-    l->share = NULL;
-    l->point_capacity = 0;
-}
-
-static void drop_cells(mps__grid *g, mps__grid_level *l)
-{
-    void *all[] = {l->key,     l->about, l->next,  l->link, l->shift,
-                   l->inverse, l->kappa, l->count, l->b,    l->x};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
-    l->key = NULL;
-    l->about = l->next = NULL;
-    l->link = NULL;
-    l->shift = l->inverse = l->kappa = l->count = l->b = l->x = NULL;
-    l->cell_capacity = 0;
-}
-
-/* A cell and those about it. */
-static int all_about(const mps__grid *g)
-{
-    return g->dim == 2 ? 9 : MPS__GRID_ABOUT;
-}
-
-static bool reserve_points(mps__grid *g, mps__grid_level *l, int64_t points)
-{
-    if (points <= l->point_capacity) return true;
-    drop_points(g, l);
-    int64_t capacity = points + points / 32;
-    l->home = mps__take(&g->allocator, capacity, sizeof *l->home);
-    l->side = mps__take(&g->allocator, capacity, sizeof *l->side);
-    l->share = mps__take(&g->allocator, capacity << g->dim, sizeof *l->share);
-    if (l->home && l->side && l->share)
-        l->point_capacity = capacity;
-    else
-        drop_points(g, l);
-    return l->point_capacity > 0;
-}
-
-static bool reserve_cells(mps__grid *g, mps__grid_level *l, int64_t cells)
-{
-    if (cells < l->cell_capacity) return true;
-    drop_cells(g, l);
-    int64_t capacity = cells + cells / 8 + 1; /* a grid may have no cell at all */
-    l->key = mps__take(&g->allocator, capacity, sizeof *l->key);
-    l->about = mps__take(&g->allocator, capacity * all_about(g), sizeof *l->about);
-    l->next = mps__take(&g->allocator, capacity * 2 * g->dim, sizeof *l->next);
-    l->link = mps__take(&g->allocator, capacity * 2 * g->dim, sizeof *l->link);
-    l->shift = mps__take(&g->allocator, capacity, sizeof *l->shift);
-    l->inverse = mps__take(&g->allocator, capacity, sizeof *l->inverse);
-    l->kappa = mps__take(&g->allocator, capacity, sizeof *l->kappa);
-    l->count = mps__take(&g->allocator, capacity, sizeof *l->count);
-    l->b = mps__take(&g->allocator, capacity, sizeof *l->b);
-    l->x = mps__take(&g->allocator, capacity, sizeof *l->x);
-    if (l->key && l->about && l->next && l->link && l->shift && l->inverse && l->kappa &&
-        l->count && l->b && l->x)
-        l->cell_capacity = capacity;
-    else
-        drop_cells(g, l);
-    return l->cell_capacity > 0;
-}
-
-static void drop_work(mps__grid *g)
-{
-    void *all[] = {g->point_key, g->point_kappa, g->list,       g->turn, g->start,
-                   g->order,     g->table_key,   g->table_cell, g->parts};
-    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
-    g->point_key = g->table_key = NULL;
-    g->point_kappa = NULL;
-    g->list = g->turn = g->start = g->order = g->table_cell = NULL;
-    g->parts = NULL;
-    g->point_capacity = g->table_capacity = g->order_capacity = g->turn_capacity = 0;
-    g->part_capacity = 0;
-}
-
-static int64_t table_for(int64_t cells)
-{
-    int64_t size = 16;
-    while (size < cells + cells / 2) size *= 2;
-    return size;
-}
-
-static bool reserve_table(mps__grid *g, int64_t size)
-{
-    if (size <= g->table_capacity) return true;
-    mps__give(&g->allocator, g->table_key);
-    mps__give(&g->allocator, g->table_cell);
-    g->table_key = mps__take(&g->allocator, size, sizeof *g->table_key);
-    g->table_cell = mps__take(&g->allocator, size, sizeof *g->table_cell);
-    g->table_capacity = g->table_key && g->table_cell ? size : 0;
-    return g->table_capacity > 0;
-}
-
-static bool reserve_order(mps__grid *g, int64_t cells)
-{
-    if (cells < g->order_capacity) return true;
-    mps__give(&g->allocator, g->order);
-    g->order_capacity = cells + cells / 8 + 1;
-    g->order = mps__take(&g->allocator, 2 * g->order_capacity, sizeof *g->order);
-    if (!g->order) g->order_capacity = 0;
-    return g->order;
-}
-
-bool mps__grid_reserve(mps__grid *g, int64_t points)
-{
-    if (!g->factor)
-        g->factor = mps__take(&g->allocator, MPS__GRID_DIRECT * MPS__GRID_DIRECT,
-                              sizeof *g->factor);
-    if (!g->pivot) g->pivot = mps__take(&g->allocator, MPS__GRID_DIRECT, sizeof *g->pivot);
-    if (!g->factor || !g->pivot) return false;
-    if (points <= g->point_capacity && g->table_capacity > 0) return true;
-    drop_work(g);
-    const int64_t capacity = points + points / 32;
-    g->point_key = mps__take(&g->allocator, capacity, sizeof *g->point_key);
-    g->point_kappa = mps__take(&g->allocator, capacity, sizeof *g->point_kappa);
-    g->list = mps__take(&g->allocator, capacity, sizeof *g->list);
-    if (g->point_key && g->point_kappa && g->list && reserve_table(g, table_for(points / 8)))
-        g->point_capacity = capacity;
-    else
-        drop_work(g);
-    return g->point_capacity > 0;
-}
-
-bool mps__grid_reserve_parts(mps__grid *g, size_t bytes)
-{
-    if (bytes < g->part_capacity) return true;
-    mps__give(&g->allocator, g->parts);
-    g->part_capacity = bytes + bytes / 8 + sizeof(double);
-    g->parts = mps__take(&g->allocator, (int64_t)g->part_capacity, 1);
-    if (!g->parts) g->part_capacity = 0;
-    return g->parts;
-}
-
-bool mps__grid_reserve_turns(mps__grid *g, int64_t cells)
-{
-    if (cells < g->turn_capacity) return true;
-    mps__give(&g->allocator, g->turn);
-    mps__give(&g->allocator, g->start);
-    const int64_t capacity = cells + cells / 8 + 1;
-    g->turn = mps__take(&g->allocator, capacity, sizeof *g->turn);
-    g->start = mps__take(&g->allocator, capacity, sizeof *g->start);
-    g->turn_capacity = g->turn && g->start ? capacity : 0;
-    return g->turn_capacity > 0;
-}
-
-void mps__grid_release(mps__grid *g)
-{
-    for (int k = 0; k < MPS__GRID_LEVELS; k++) {
-        drop_points(g, &g->level[k]);
-        drop_cells(g, &g->level[k]);
-    }
-    drop_work(g);
-    mps__grid_ranks_release(g);
-    mps__give(&g->allocator, g->factor);
-    mps__give(&g->allocator, g->pivot);
-    g->factor = g->pivot = NULL;
-}
-
-/* ---- cells ---- */
+#include <string.h>
 
 /* Slot of a key, or the free one where it belongs. */
 static int64_t slot(const mps__grid *g, int64_t key)
@@ -180,17 +14,10 @@ static int64_t slot(const mps__grid *g, int64_t key)
     return s;
 }
 
-static bool is_red(int64_t key)
-{
-    return ((mps__grid_coordinate(key, 0) + mps__grid_coordinate(key, 1) +
-             mps__grid_coordinate(key, 2)) &
-            1) == 0;
-}
-
 /* Homes by order of appearance; counts cells and red ones. False: the table is too small. */
 static bool fill_table(mps__grid *g, mps__grid_level *l)
 {
-    const int64_t all = table_for(l->points);
+    const int64_t all = mps__grid_table_for(l->points);
     g->table_size = all < g->table_capacity ? all : g->table_capacity;
     for (int64_t s = 0; s < g->table_size; s++) g->table_key[s] = -1;
     l->cells = l->red = 0;
@@ -205,7 +32,7 @@ static bool fill_table(mps__grid *g, mps__grid_level *l)
             if (l->cells + l->cells / 2 >= g->table_size) return false;
             g->table_key[s] = key;
             g->table_cell[s] = (int32_t)l->cells++;
-            l->red += is_red(key);
+            l->red += mps__grid_is_red(key);
         }
         l->home[i] = g->table_cell[s];
     }
@@ -216,7 +43,7 @@ static bool fill_table(mps__grid *g, mps__grid_level *l)
 static bool find_cells(mps__grid *g, mps__grid_level *l)
 {
     while (!fill_table(g, l))
-        if (!reserve_table(g, 2 * g->table_capacity)) return false;
+        if (!mps__grid_reserve_table(g, 2 * g->table_capacity)) return false;
     return true;
 }
 
@@ -257,19 +84,17 @@ static const int32_t *sort_keys(const mps__grid *g, const int64_t *key, int64_t 
     return from;
 }
 
-/* What a loop works on; each uses its own. */
-typedef struct finding {
-    const mps__grid *g;
-    mps__grid_level *l;
+typedef struct renumbering {
+    int32_t *home;
     const int32_t *number; /* of the cells, by order of appearance */
-} finding;
+} renumbering;
 
-static void renumber_rows(void *argument, int64_t begin, int64_t end)
+MPS_ROW void renumber_row(const int dim, const renumbering *f, int64_t i)
 {
-    const finding *f = argument;
-    for (int64_t i = begin; i < end; i++)
-        if (f->l->home[i] >= 0) f->l->home[i] = f->number[f->l->home[i]];
+    (void)dim;
+    if (f->home[i] >= 0) f->home[i] = f->number[f->home[i]];
 }
+MPS__LOOP_ANY(renumber_rows, renumber_row, renumbering)
 
 /* Keys of cells in order of appearance replace those of the points. */
 static void list_keys(mps__grid *g)
@@ -280,8 +105,8 @@ static void list_keys(mps__grid *g)
 
 int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points)
 {
-    if (!reserve_points(g, l, points)) return -1;
     l->points = points;
+    if (!mps__grid_reserve_points(g, l)) return -1;
     if (!find_cells(g, l)) return -1;
     list_keys(g);
     return l->cells;
@@ -297,13 +122,13 @@ static void sort_cells(mps__grid *g, mps__grid_level *l)
     int32_t red = 0, black = (int32_t)l->red;
     for (int64_t c = 0; c < l->cells; c++) {
         const int32_t cell = sorted[c];
-        number[cell] = is_red(key[cell]) ? red++ : black++;
+        number[cell] = mps__grid_is_red(key[cell]) ? red++ : black++;
         l->key[number[cell]] = key[cell];
     }
     for (int64_t s = 0; s < g->table_size; s++)
         if (g->table_key[s] >= 0) g->table_cell[s] = number[g->table_cell[s]];
-    mps_parallel_rows_least(g->parallel, l->points, MPS__TEAM_LEAST / 2, renumber_rows,
-                            &(finding){.l = l, .number = number});
+    mps__loop_run_cheap(g->parallel, &renumber_rows, MPS__ANY_DIM, l->points,
+                        &(renumbering){l->home, number});
 }
 
 static void find_neighbours(const mps__grid *g, mps__grid_level *l)
@@ -323,39 +148,75 @@ static void find_neighbours(const mps__grid *g, mps__grid_level *l)
         }
 }
 
-/* Cells about those of a range, each found as the neighbour of one that is a step nearer. */
-static void find_about(void *argument, int64_t begin, int64_t end)
+/* What a loop over cells sees of them. */
+typedef struct around {
+    int64_t cells;
+    const int32_t *next;
+    int32_t *about;
+    double *b, *x;
+} around;
+
+/* Cells about a cell, each found as the neighbour of one that is a step nearer. The last row is the cell that stands for none. */
+MPS_ROW void find_about(const int dim, const around *f, int64_t c)
 {
-    static const int power[3] = {1, 3, 9};
-    const mps__grid *g = ((const finding *)argument)->g;
-    const mps__grid_level *l = ((const finding *)argument)->l;
-    const int all = all_about(g), sides = 2 * g->dim;
-    for (int64_t c = begin; c < end; c++) {
-        int32_t *about = l->about + c * all;
-        for (int k = 0; k < all; k++) {
-            about[k] = (int32_t)(k == 0 ? c : l->cells);
-            for (int a = 0; a < g->dim && about[k] == l->cells; a++) {
-                const int digit = k / power[a] % 3;
-                const int64_t from = about[k - digit * power[a]];
-                if (digit == 0 || from == l->cells) continue;
-                const int32_t next = l->next[from * sides + 2 * a + digit - 1];
-                if (next != from) about[k] = next;
-            }
+    const int all = mps__grid_all(dim), sides = 2 * dim;
+    int32_t *about = f->about + c * all;
+    if (c == f->cells) {
+        f->b[c] = f->x[c] = 0;
+        return;
+    }
+    for (int k = 0; k < all; k++) {
+        about[k] = (int32_t)(k == 0 ? c : f->cells);
+        for (int a = 0, power = 1; a < dim && about[k] == f->cells; a++, power *= 3) {
+            const int digit = k / power % 3;
+            const int64_t from = about[k - digit * power];
+            if (digit == 0 || from == f->cells) continue;
+            const int32_t next = f->next[from * sides + 2 * a + digit - 1];
+            if (next != from) about[k] = next;
         }
     }
+}
+MPS__LOOP(cells_about, find_about, around)
+
+/* Number the cells, and find the neighbours of each through the table. */
+static bool number_cells(mps__grid *g, mps__grid_level *l)
+{
+    if (!mps__grid_reserve_order(g, l->cells)) return false;
+    sort_cells(g, l);
+    find_neighbours(g, l);
+    return true;
 }
 
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
 {
-    if (!reserve_points(g, l, points)) return false;
     l->points = points;
-    if (!find_cells(g, l) || !reserve_cells(g, l, l->cells) || !reserve_order(g, l->cells))
+    if (!mps__grid_reserve_points(g, l)) return false;
+    if (g->device)
+        mps__grid_sort(g, l);
+    else if (!find_cells(g, l))
         return false;
-    sort_cells(g, l);
-    find_neighbours(g, l);
-    mps_parallel_rows(mps__team(g->parallel, l->cells), l->cells, find_about,
-                      &(finding){.g = g, .l = l});
-    for (int64_t c = 0; c < l->cells; c++) l->shift[c] = l->kappa[c] = l->count[c] = 0;
-    l->b[l->cells] = l->x[l->cells] = 0;
+    if (!mps__grid_reserve_cells(g, l)) return false;
+    if (g->device)
+        mps__grid_number(g, l);
+    else if (!number_cells(g, l))
+        return false;
+    mps__loop_run(mps__team(g->parallel, l->cells), &cells_about, g->dim, l->cells + 1,
+                  &(around){l->cells, l->next, l->about, l->b, l->x});
     return true;
+}
+
+void mps__grid_list_cells(const mps__grid *g, mps__grid_level *l)
+{
+    int32_t *next = g->order, end = 0;
+    memset(next, 0, (size_t)l->cells * sizeof *next);
+    for (int64_t i = 0; i < l->points; i++)
+        if (l->home[i] >= 0) next[l->home[i]]++;
+    for (int64_t c = 0; c < l->cells; c++) {
+        const int32_t count = next[c];
+        l->start[c] = next[c] = end;
+        end += count;
+    }
+    l->start[l->cells] = end;
+    for (int64_t i = 0; i < l->points; i++)
+        if (l->home[i] >= 0) l->list[next[l->home[i]]++] = (int32_t)i;
 }

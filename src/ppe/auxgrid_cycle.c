@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the V-cycle. Sweeps down go red, black and sweeps up black, red, so that the cycle is a symmetric operator. */
+/* auxgrid: inverse diagonals and the V-cycle. Sweeps down go red, black and sweeps up black, red, so that the cycle is a symmetric operator. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <math.h>
@@ -7,17 +7,54 @@
 
 enum { SWEEPS = 2 };
 
+/* ---- diagonals ---- */
+
+typedef struct diagonals {
+    const double *shift;
+    const float *link;
+    double *inverse;
+} diagonals;
+
+/* The maximum: whether a diagonal is not finite. */
+MPS_ROW void invert_row(const int dim, const diagonals *f, int64_t c, double *bad)
+{
+    double d = f->shift[c];
+    for (int64_t s = c * 2 * dim; s < (c + 1) * 2 * dim; s++) d += (double)f->link[s];
+    if (!isfinite(d)) *bad = 1;
+    f->inverse[c] = d > 0 ? 1 / d : 0;
+}
+MPS__VALUES(invert_rows, invert_row, diagonals, 0, 1)
+
+/* What a device says of all grids comes in one copy. */
+static bool invert_there(const mps__grid *g)
+{
+    double bad[MPS__GRID_LEVELS] = {0};
+    for (int k = 0; k < g->levels; k++) {
+        const mps__grid_level *l = &g->level[k];
+        const diagonals f = {l->shift, l->link, l->inverse};
+        mps__values_gather(g->device, &invert_rows, g->dim, l->cells, &f, g->bad + k);
+    }
+    mps__device_download(g->device, bad, g->bad, (size_t)g->levels * sizeof *bad);
+    for (int k = 0; k < g->levels; k++)
+        if (g->level[k].cells > 0 && bad[k] > 0) return g->device->failed;
+    return true;
+}
+
+static bool invert_here(const mps__grid *g)
+{
+    double bad = 0;
+    for (int k = 0; k < g->levels; k++) {
+        const mps__grid_level *l = &g->level[k];
+        const diagonals f = {l->shift, l->link, l->inverse};
+        mps__values_run(mps__team(g->parallel, l->cells), &invert_rows, g->dim, l->cells, &f, NULL,
+                        &bad);
+    }
+    return !(bad > 0);
+}
+
 bool mps__grid_factorise(mps__grid *g)
 {
-    for (int k = 0; k < g->levels; k++) {
-        mps__grid_level *l = &g->level[k];
-        for (int64_t c = 0; c < l->cells; c++) {
-            double d = l->shift[c];
-            for (int64_t s = c * 2 * g->dim; s < (c + 1) * 2 * g->dim; s++) d += (double)l->link[s];
-            if (!isfinite(d)) return false;
-            l->inverse[c] = d > 0 ? 1 / d : 0;
-        }
-    }
+    if (!(g->device ? invert_there(g) : invert_here(g))) return false;
     mps__grid_factorise_last(g);
     return true;
 }
@@ -143,9 +180,9 @@ static void restrict_there(const mps__grid *g, int k)
 {
     cells f = cells_of(&g->level[k]);
     f.coarse = mps__grid_points_of(&g->level[k + 1]);
-    f.rest = g->away->rest[k];
+    f.rest = g->level[k].rest;
     run(g, &rest_rows, f.red, &f);
-    mps__grid_gather(g->away, k + 1);
+    mps__grid_gather(g, k + 1);
 }
 
 /* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
@@ -257,7 +294,7 @@ static void cycle_whole(mps__grid *g, int first)
     int last = g->levels - 1;
     for (int k = first; k < last; k++) {
         sweep_down(g, &g->level[k]);
-        if (g->away)
+        if (g->device)
             restrict_there(g, k);
         else
             restrict_residual(g, &g->level[k], &g->level[k + 1]);

@@ -1,54 +1,107 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the last grid, of few cells, is solved directly. On a device a group of threads does so together. */
+/* auxgrid: the last grid, of few cells, is solved directly. On a device a group of threads factorises and solves it together. */
 #include "auxgrid.h"
-#include <string.h>
 
 static const double no_level =
     1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
 
-static void fill_matrix(mps__grid *g, const mps__grid_level *l)
+/* ---- factors ---- */
+
+typedef struct matrix {
+    int64_t cells;
+    const double *shift;
+    const int32_t *next;
+    const float *link;
+    double *factor, *pivot;
+} matrix;
+
+MPS_ROW void fill_row(const int dim, const matrix *m, int64_t c)
 {
-    int sides = 2 * g->dim;
-    memset(g->factor, 0, (size_t)(l->cells * l->cells) * sizeof *g->factor);
-    for (int64_t c = 0; c < l->cells; c++) {
-        double *row = g->factor + c * l->cells;
-        row[c] = l->shift[c];
-        for (int64_t s = c * sides; s < (c + 1) * sides; s++) {
-            row[c] += (double)l->link[s];
-            row[l->next[s]] -= (double)l->link[s];
-        }
+    double *row = m->factor + c * m->cells;
+    for (int64_t k = 0; k < m->cells; k++) row[k] = 0;
+    row[c] = m->shift[c];
+    for (int64_t s = c * 2 * dim; s < (c + 1) * 2 * dim; s++) {
+        row[c] += (double)m->link[s];
+        row[m->next[s]] -= (double)m->link[s];
     }
+}
+MPS__LOOP(fill_rows, fill_row, matrix)
+
+MPS_ROW double pivot_of(double d, double whole)
+{
+    return d > no_level * whole ? 1 / d : 0;
 }
 
 /* L D L' in place of the lower triangle. A component without a level keeps one pivot of zero: its last cell is held. */
-void mps__grid_factorise_last(mps__grid *g)
+static void factorise(const matrix *m)
 {
-    const mps__grid_level *l = &g->level[g->levels - 1];
-    int64_t n = l->cells;
-    fill_matrix(g, l);
+    const int64_t n = m->cells;
     for (int64_t i = 0; i < n; i++) {
-        double *row = g->factor + i * n, whole = row[i], d = whole;
+        double *row = m->factor + i * n, d = row[i];
         for (int64_t j = 0; j < i; j++) {
-            const double *other = g->factor + j * n;
+            const double *other = m->factor + j * n;
             double s = row[j]; /* becomes L_ij D_j */
             for (int64_t k = 0; k < j; k++) s -= row[k] * other[k];
             row[j] = s;
         }
         for (int64_t j = 0; j < i; j++) {
             double s = row[j];
-            row[j] *= g->pivot[j];
+            row[j] *= m->pivot[j];
             d -= s * row[j];
         }
-        g->pivot[i] = d > no_level * whole ? 1 / d : 0;
+        m->pivot[i] = pivot_of(d, row[i]);
     }
 }
 
-void mps__grid_mirror_last(mps__grid *g)
+/* The host reads the lower triangle alone. The upper one becomes the same where threads of a device read along rows. */
+static void factorise_both(const matrix *m)
 {
-    const int64_t n = g->level[g->levels - 1].cells;
+    const int64_t n = m->cells;
+    factorise(m);
     for (int64_t i = 0; i < n; i++)
-        for (int64_t j = 0; j < i; j++) g->factor[j * n + i] = g->factor[i * n + j];
+        for (int64_t j = 0; j < i; j++) m->factor[j * n + i] = m->factor[i * n + j];
 }
+
+#ifdef MPS_DEVICE
+/* The same terms in the same order for each entry: one column after the other goes into all that are left. A thread has columns of the upper triangle,
+ * where L_ij D_j is until all are there; what is left of a diagonal is where its pivot will be. */
+static void factorise_together(const matrix *m, int64_t lane, bool any)
+{
+    const int64_t n = any ? m->cells : 0;
+    double *a = m->factor;
+    for (int64_t i = lane; i < n; i += MPS__TOGETHER) m->pivot[i] = a[i * n + i];
+    for (int64_t k = 0; k < n; k++) {
+        mps__thread_wait();
+        const double pivot = pivot_of(m->pivot[k], a[k * n + k]);
+        for (int64_t i = k + 1 + lane; i < n; i += MPS__TOGETHER)
+            a[i * n + k] = a[k * n + i] * pivot;
+        mps__thread_wait();
+        if (lane == 0) m->pivot[k] = pivot;
+        for (int64_t i = k + 1 + lane; i < n; i += MPS__TOGETHER) {
+            const double whole = a[k * n + i];
+            for (int64_t j = k + 1; j < i; j++) a[j * n + i] -= whole * a[j * n + k];
+            m->pivot[i] -= whole * a[i * n + k];
+        }
+    }
+    mps__thread_wait();
+    for (int64_t i = lane; i < n; i += MPS__TOGETHER)
+        for (int64_t j = 0; j < i; j++) a[j * n + i] = a[i * n + j];
+}
+#endif
+MPS__GROUP(factorise_last, factorise_both, factorise_together, matrix)
+
+void mps__grid_factorise_last(mps__grid *g)
+{
+    const mps__grid_level *l = &g->level[g->levels - 1];
+    const matrix m = {l->cells, l->shift, l->next, l->link, g->factor, g->pivot};
+    mps__loop_run_cheap(g->parallel, &fill_rows, g->dim, l->cells, &m);
+    if (g->device)
+        mps__group_run(g->device, &factorise_last, &m);
+    else
+        factorise(&m);
+}
+
+/* ---- solution ---- */
 
 /* What the solution sees. */
 typedef struct last {
@@ -101,8 +154,8 @@ void mps__grid_solve_last(const mps__grid *g)
 {
     const mps__grid_level *l = &g->level[g->levels - 1];
     const last f = {l->cells, g->factor, g->pivot, l->b, l->x};
-    if (g->away)
-        mps__group_run(g->away->device, &solve_last, &f);
+    if (g->device)
+        mps__group_run(g->device, &solve_last, &f);
     else
         solve(&f);
 }

@@ -15,17 +15,6 @@ enum {
 
 /* ---- memory ---- */
 
-void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
-{
-    const int64_t bytes = count * (int64_t)size;
-    if (r->at && bytes <= r->bytes) return r->at;
-    mps__give(&g->allocator, r->at);
-    r->bytes = bytes + bytes / 8 + 64;
-    r->at = mps__take(&g->allocator, r->bytes, 1);
-    if (!r->at) r->bytes = 0;
-    return r->at;
-}
-
 static void *room(mps__grid *g, int which, int64_t count, size_t size)
 {
     return mps__grid_room_of(g, &g->ranks.room[which], count, size);

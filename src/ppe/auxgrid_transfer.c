@@ -15,17 +15,9 @@ const uint8_t mps__grid_corner[8][8] = {{0, 1, 3, 4, 9, 10, 12, 13},  {0, 2, 3, 
                                         {0, 1, 3, 4, 18, 19, 21, 22}, {0, 2, 3, 5, 18, 20, 21, 23},
                                         {0, 1, 6, 7, 18, 19, 24, 25}, {0, 2, 6, 8, 18, 20, 24, 26}};
 
-/* Number of a cell about its neighbour: each step the other way. */
-static const uint8_t opposite[MPS__GRID_ABOUT] = {0,  2,  1,  6,  8,  7,  3,  5,  4,
-                                                  18, 20, 19, 24, 26, 25, 21, 23, 22,
-                                                  9,  11, 10, 15, 17, 16, 12, 14, 13};
-
-/* What a loop works on; each uses its own. */
-typedef struct transfer {
-    mps__grid *g;
-    mps__grid_level *l;
-    const mps_ppe_problem *problem;
-} transfer;
+const uint8_t mps__grid_opposite[MPS__GRID_ABOUT] = {0,  2,  1,  6,  8,  7,  3,  5,  4,
+                                                     18, 20, 19, 24, 26, 25, 21, 23, 22,
+                                                     9,  11, 10, 15, 17, 16, 12, 14, 13};
 
 /* ---- particles by cell ---- */
 
@@ -37,11 +29,9 @@ static inline bool is_summed(const mps__grid_ranks *r, int32_t cell)
 
 /* Cells take turns as the particles meet them, so that the list goes through memory about as the particles do. No sum depends
  * on the turns. */
-bool mps__grid_list(mps__grid *g)
+static void list_turns(mps__grid *g, const mps__grid_ranks *r)
 {
     const mps__grid_level *l = &g->level[0];
-    const mps__grid_ranks *r = mps__grid_many(g) ? &g->ranks : NULL;
-    if (!mps__grid_reserve_turns(g, l->cells)) return false;
     int32_t *next = g->order, end = 0;
     g->turns = 0;
     memset(next, 0, (size_t)l->cells * sizeof *next);
@@ -51,87 +41,121 @@ bool mps__grid_list(mps__grid *g)
     }
     for (int64_t t = 0; t < g->turns; t++) {
         const int32_t count = next[g->turn[t]];
-        g->start[t] = next[g->turn[t]] = end;
+        l->start[t] = next[g->turn[t]] = end;
         end += count;
     }
-    g->start[g->turns] = end;
+    l->start[g->turns] = end;
     for (int64_t k = 0; k < l->points; k++) {
         const int32_t i = r ? r->table.order[k] : (int32_t)k;
-        if (is_summed(r, l->home[i])) g->list[next[l->home[i]]++] = i;
+        if (is_summed(r, l->home[i])) l->list[next[l->home[i]]++] = i;
     }
-    return true;
+}
+
+/* A device has the list already. */
+bool mps__grid_list(mps__grid *g)
+{
+    const int64_t cells = g->level[0].cells;
+    g->turns = cells;
+    if (g->device) return true;
+    g->turn = mps__grid_room_of(g, &g->turn_room, cells, sizeof *g->turn);
+    if (g->turn) list_turns(g, mps__grid_many(g) ? &g->ranks : NULL);
+    return g->turn;
 }
 
 /* ---- shares of the points ---- */
 
+/* What loops over points see. */
+typedef struct sharing {
+    const int32_t *home, *next;
+    const float *link;
+    const double *kappa; /* of the cells */
+    uint8_t *side;
+    float *share;
+    mps__grid_positions at;    /* of particles */
+    const double *point_shift; /* [shifts] */
+    int64_t shifts;
+    double *particle;   /* conductivities, in whose place the shifts come */
+    const int64_t *key; /* of cells of the finer grid */
+    const double *cell; /* their conductivities */
+} sharing;
+
+static sharing sharing_of(const mps__grid_level *l)
+{
+    return (sharing){.home = l->home,
+                     .next = l->next,
+                     .link = l->link,
+                     .kappa = l->kappa,
+                     .side = l->side,
+                     .share = l->share};
+}
+
 /* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a; only cells joined to
  * the own one by links count, and a cell that conducts less than the point counts less. */
-static inline __attribute__((always_inline)) void set_shares_of(const int dim, mps__grid_level *l,
-                                                                int64_t point, double kappa,
-                                                                const double *far, const int side)
+MPS_ROW void set_shares(const int dim, const sharing *f, int64_t point, double kappa,
+                        const double *far, const int side)
 {
     const int corners = 1 << dim;
-    float *share = l->share + point * corners;
+    float *share = f->share + point * corners;
     int32_t at[8]; /* -1: not joined */
     double w[8], sum = 0;
     for (int k = 0; k < corners; k++) {
-        at[k] = k == 0 ? l->home[point] : -1;
+        at[k] = k == 0 ? f->home[point] : -1;
         w[k] = 1;
         for (int a = 0; a < dim; a++) {
             w[k] *= k >> a & 1 ? far[a] : 1 - far[a];
             int32_t before = k >> a & 1 ? at[k ^ 1 << a] : -1;
             if (at[k] >= 0 || before < 0) continue;
             int64_t link = (int64_t)before * 2 * dim + 2 * a + (side >> a & 1);
-            if (l->link[link] > 0) at[k] = l->next[link];
+            if (f->link[link] > 0) at[k] = f->next[link];
         }
         if (at[k] < 0) w[k] = 0;
-        if (at[k] >= 0 && kappa > l->kappa[at[k]]) w[k] *= l->kappa[at[k]] / kappa;
+        if (at[k] >= 0 && kappa > f->kappa[at[k]]) w[k] *= f->kappa[at[k]] / kappa;
         sum += w[k];
     }
     for (int k = 0; k < corners; k++) share[k] = (float)(sum > 0 ? w[k] / sum : k == 0);
-    l->side[point] = (uint8_t)side;
+    f->side[point] = (uint8_t)side;
 }
 
-static void set_shares(const mps__grid *g, mps__grid_level *l, int64_t point, double kappa,
-                       const double *far, int side)
+MPS_ROW void share_particle(const int dim, const sharing *f, int64_t i)
 {
-    if (g->dim == 2)
-        set_shares_of(2, l, point, kappa, far, side);
-    else
-        set_shares_of(3, l, point, kappa, far, side);
-}
-
-static void share_particles(void *argument, int64_t begin, int64_t end)
-{
-    const transfer *t = argument;
-    for (int64_t i = begin; i < end; i++) {
-        double far[3];
-        int side = 0;
-        for (int a = 0; a < t->g->dim; a++) {
-            double u = mps__grid_position(t->g, t->problem, i, a), f = u - floor(u) - 0.5;
-            side |= (f > 0) << a;
-            far[a] = fabs(f);
-        }
-        set_shares(t->g, t->l, i, t->g->point_kappa[i], far, side);
+    double far[3];
+    int side = 0;
+    for (int a = 0; a < dim; a++) {
+        const double u = mps__grid_position(dim, &f->at, i, a), part = u - floor(u) - 0.5;
+        side |= (part > 0) << a;
+        far[a] = fabs(part);
     }
+    set_shares(dim, f, i, f->particle[i], far, side);
+    if (i < f->shifts) f->particle[i] = f->point_shift[i] > 0 ? f->point_shift[i] : 0;
 }
+MPS__LOOP(share_particles, share_particle, sharing)
 
 void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem)
 {
-    mps__grid_level *l = &g->level[0];
-    mps_parallel_rows(mps__team(problem->parallel, l->points), l->points, share_particles,
-                      &(transfer){.g = g, .l = l, .problem = problem});
+    const mps__grid_level *l = &g->level[0];
+    sharing f = sharing_of(l);
+    f.at = mps__grid_positions_of(g, problem);
+    f.point_shift = problem->shift;
+    f.shifts = problem->n;
+    f.particle = g->point_kappa;
+    mps__loop_run(mps__team(problem->parallel, l->points), &share_particles, g->dim, l->points, &f);
 }
+
+MPS_ROW void share_cell(const int dim, const sharing *f, int64_t c)
+{
+    const double far[3] = {0.25, 0.25, 0.25};
+    int side = 0;
+    for (int a = 0; a < dim; a++) side |= (int)(mps__grid_coordinate(f->key[c], a) & 1) << a;
+    if (f->home[c] >= 0) set_shares(dim, f, c, f->cell[c], far, side);
+}
+MPS__LOOP(share_cells, share_cell, sharing)
 
 void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
 {
-    static const double far[3] = {0.25, 0.25, 0.25};
-    for (int64_t c = 0; c < fine->cells; c++) {
-        int side = 0;
-        for (int a = 0; a < g->dim; a++)
-            side |= (int)(mps__grid_coordinate(fine->key[c], a) & 1) << a;
-        if (l->home[c] >= 0) set_shares(g, l, c, fine->kappa[c], far, side);
-    }
+    sharing f = sharing_of(l);
+    f.key = fine->key;
+    f.cell = fine->kappa;
+    mps__loop_run(mps__team(g->parallel, fine->cells), &share_cells, g->dim, fine->cells, &f);
 }
 
 /* ---- from the particles to the cells ---- */
@@ -150,14 +174,14 @@ static adding adding_of(const mps__grid *g, const double *values, double scale)
 {
     const mps__grid_level *l = &g->level[0];
     return (adding){
-        mps__grid_points_of(l), g->list, g->start, g->turn, values, scale, g->parts, l->b};
+        mps__grid_points_of(l), l->list, l->start, g->turn, values, scale, g->parts, l->b};
 }
 
 /* What a particle adds to its cell and to the cells about it. */
 MPS_ROW void add_value(const int dim, const adding *t, int64_t i)
 {
     const int corners = 1 << dim;
-    double *part = t->parts + (int64_t)t->to.home[i] * (dim == 2 ? 9 : MPS__GRID_ABOUT);
+    double *part = t->parts + (int64_t)t->to.home[i] * (mps__grid_all(dim));
     const uint8_t *corner = mps__grid_corner[t->to.side[i]];
     const float *share = t->to.share + i * corners;
     const double value = t->scale * t->values[i];
@@ -184,10 +208,10 @@ MPS__LOOP(add_turns, add_turn, adding)
 /* The parts for a cell; those of the cell that stands for none are zero. */
 MPS_ROW void sum_cell(const int dim, const adding *t, int64_t c)
 {
-    const int all = dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int all = mps__grid_all(dim);
     const int32_t *about = t->to.about + c * all;
     double sum = 0;
-    for (int k = 0; k < all; k++) sum += t->parts[(int64_t)about[k] * all + opposite[k]];
+    for (int k = 0; k < all; k++) sum += t->parts[(int64_t)about[k] * all + mps__grid_opposite[k]];
     t->b[c] = sum;
 }
 MPS__LOOP(sum_cells, sum_cell, adding)
@@ -195,7 +219,7 @@ MPS__LOOP(sum_cells, sum_cell, adding)
 /* Parts of the cells that this rank owns; those of all others come from other ranks or stay zero. */
 MPS_ROW void clear_turn(const int dim, const adding *t, int64_t turn)
 {
-    const int all = dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int all = mps__grid_all(dim);
     memset(t->parts + (int64_t)t->turn[turn] * all, 0, (size_t)all * sizeof *t->parts);
 }
 MPS__LOOP(clear_turns, clear_turn, adding)
@@ -228,7 +252,7 @@ int mps__grid_restrict(mps__grid *g, const double *values, double scale)
     const mps_parallel *team = mps__team(g->parallel, l->points);
     const adding t = adding_of(g, values, scale);
     if (mps__grid_many(g)) return restrict_ranks(g, values, scale);
-    mps__vectors_clear(team, (l->cells + 1) * (g->dim == 2 ? 9 : MPS__GRID_ABOUT), t.parts);
+    mps__vectors_clear(team, (l->cells + 1) * (mps__grid_all(g->dim)), t.parts);
     if (team && (team->threads > 1 || mps__device_of(team)))
         mps__loop_run(team, &add_turns, g->dim, g->turns, &t);
     else

@@ -18,18 +18,26 @@ enum {
 /* The integer of a conductance of 1, about that of a pair of the lightest fluid. A pair of a fluid 1000 times as dense conducts
  * 0.001, with an error of 2e-9 of that: less than the error of a float. A face adds up some hundred pairs. */
 static const double per_unit = 0x1p38;
-/* From here on a sum counts as infinite, which mps__grid_factorise() refuses. */
-#define MOST (UINT64_C(1) << 58)
+/* From here on a sum counts as infinite, which mps__grid_factorise() refuses, and so does one with the mark of a term that is too large itself. */
+#define MOST     (UINT64_C(1) << 58)
+#define INFINITE (UINT64_C(1) << 63)
+static const double largest_term =
+    0x1p52; /* far from any pair's; hundreds of them are below the mark */
 
 typedef struct wiring {
-    const mps__grid *g;
-    const mps__grid_level *l;
-    const mps_ppe_problem *problem;
+    const int64_t *row, *key;
+    const int32_t *col, *home, *next;
+    const float *val;
     const int32_t *
         place; /* NULL, or [columns] where the numbers of rows are not in the order of the particles */
+    mps__grid_positions at;
+    double unit;
+    int64_t n, count; /* rows; faces */
     int32_t chunks;
+    bool together; /* rows of different threads add to the same faces */
     uint64_t
         *faces; /* [chunks][cells * dim] conductance of the face above a cell along each axis */
+    float *link;
 } wiring;
 
 typedef struct wire {
@@ -41,14 +49,14 @@ typedef struct wire {
 } wire;
 
 /* Next axis to step along: the plane that the wire meets first, unless there is no cell behind it. -1: none */
-static int next_axis(const mps__grid *g, const mps__grid_level *l, const wire *w, int32_t cell)
+MPS_ROW int next_axis(const int dim, const wiring *y, const wire *w, int32_t cell)
 {
     int best = -1;
     double first = INFINITY;
-    for (int a = 0; a < g->dim; a++) {
+    for (int a = 0; a < dim; a++) {
         int up = w->d[a] > 0;
-        if (w->left[a] == 0 || l->next[(int64_t)cell * 2 * g->dim + 2 * a + up] == cell) continue;
-        double plane = (double)(mps__grid_coordinate(l->key[cell], a) + up);
+        if (w->left[a] == 0 || y->next[(int64_t)cell * 2 * dim + 2 * a + up] == cell) continue;
+        double plane = (double)(mps__grid_coordinate(y->key[cell], a) + up);
         double t = (plane - w->x[a]) / w->d[a];
         if (t < first) {
             first = t;
@@ -59,98 +67,124 @@ static int next_axis(const mps__grid *g, const mps__grid_level *l, const wire *w
 }
 
 /* Cells from one to the next along the wire. False: they are too far apart or not joined. */
-static bool follow(const mps__grid *g, const mps__grid_level *l, wire *w, int32_t from, int32_t to)
+MPS_ROW bool follow(const int dim, const wiring *y, wire *w, int32_t from, int32_t to)
 {
     int all = 0;
-    for (int a = 0; a < g->dim; a++) {
-        int64_t left = mps__grid_coordinate(l->key[to], a) - mps__grid_coordinate(l->key[from], a);
+    for (int a = 0; a < dim; a++) {
+        int64_t left = mps__grid_coordinate(y->key[to], a) - mps__grid_coordinate(y->key[from], a);
         if (left > MAX_STEPS || left < -MAX_STEPS) return false;
         w->left[a] = (int)(left < 0 ? -left : left);
         all += w->left[a];
     }
     if (all > MAX_STEPS) return false;
     for (w->steps = 0; w->steps < all; w->steps++) {
-        int a = next_axis(g, l, w, from);
+        int a = next_axis(dim, y, w, from);
         if (a < 0) return false;
         w->left[a]--;
         int up = w->d[a] > 0;
-        int32_t to_next = l->next[(int64_t)from * 2 * g->dim + 2 * a + up];
-        w->face[w->steps] = (int64_t)(up ? from : to_next) * g->dim + a;
+        int32_t to_next = y->next[(int64_t)from * 2 * dim + 2 * a + up];
+        w->face[w->steps] = (int64_t)(up ? from : to_next) * dim + a;
         from = to_next;
     }
     return true;
 }
 
-static inline void add(uint64_t *face, double conductance)
+MPS_ROW void add(const wiring *y, uint64_t *face, double conductance)
 {
     const double whole = conductance * per_unit;
-    if (*face < MOST) *face += whole < (double)MOST ? (uint64_t)(int64_t)(whole + 0.5) : MOST;
+    const bool finite = whole < largest_term;
+    const uint64_t term = finite ? (uint64_t)(int64_t)(whole + 0.5) : INFINITE;
+    if (y->together && finite)
+        __sync_fetch_and_add(face, term);
+    else if (y->together)
+        __sync_fetch_and_or(face, term);
+    else
+        *face = finite ? *face + term : *face | term;
 }
 
-static void add_wire(const mps__grid *g, const mps__grid_level *l, wire *w, const int32_t home[2],
-                     uint64_t *faces)
+MPS_ROW void add_wire(const int dim, const wiring *y, wire *w, const int32_t home[2],
+                      uint64_t *faces)
 {
-    if (!follow(g, l, w, home[0], home[1])) return;
+    if (!follow(dim, y, w, home[0], home[1])) return;
     for (int s = 0; s < w->steps; s++)
-        add(&faces[w->face[s]], w->k * fabs(w->d[w->face[s] % g->dim]));
+        add(y, &faces[w->face[s]], w->k * fabs(w->d[w->face[s] % dim]));
 }
 
 /* The same for cells with a face in common, as most are. False: they have none. */
-static bool add_short_wire(const mps__grid *g, const mps__grid_level *l, const wire *w,
-                           const int32_t home[2], uint64_t *faces)
+MPS_ROW bool add_short_wire(const int dim, const wiring *y, const wire *w, const int32_t home[2],
+                            uint64_t *faces)
 {
-    int64_t step = l->key[home[1]] - l->key[home[0]];
-    for (int a = 0; a < g->dim; a++) {
+    int64_t step = y->key[home[1]] - y->key[home[0]];
+    for (int a = 0; a < dim; a++) {
         int64_t one = (int64_t)1 << (a * MPS__GRID_BITS);
         if (step != one && step != -one) continue;
-        add(&faces[(int64_t)home[step < 0] * g->dim + a], w->k * fabs(w->d[a]));
+        add(y, &faces[(int64_t)home[step < 0] * dim + a], w->k * fabs(w->d[a]));
         return true;
     }
     return false;
 }
 
-static void add_row(const wiring *y, int64_t i, uint64_t *faces)
+MPS_ROW void add_row(const int dim, const wiring *y, int64_t i, uint64_t *faces)
 {
-    const mps_ppe_problem *problem = y->problem;
-    const mps__grid *g = y->g;
-    const mps__grid_level *l = y->l;
     wire w;
-    for (int a = 0; a < g->dim; a++) w.x[a] = mps__grid_position(g, problem, i, a);
-    for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-        int32_t j = problem->col[k], home[2] = {l->home[i], l->home[j]};
+    for (int a = 0; a < dim; a++) w.x[a] = mps__grid_position(dim, &y->at, i, a);
+    for (int64_t k = y->row[i]; k < y->row[i + 1]; k++) {
+        int32_t j = y->col[k], home[2] = {y->home[i], y->home[j]};
         const bool before = y->place ? y->place[j] <= y->place[i] : j <= i;
-        if (before || home[0] == home[1] || !(problem->val[k] < 0)) continue;
-        w.k = -(double)problem->val[k] * g->unit;
-        for (int a = 0; a < g->dim; a++) w.d[a] = mps__grid_position(g, problem, j, a) - w.x[a];
-        if (!add_short_wire(g, l, &w, home, faces)) add_wire(g, l, &w, home, faces);
+        if (before || home[0] == home[1] || !(y->val[k] < 0)) continue;
+        w.k = -(double)y->val[k] * y->unit;
+        for (int a = 0; a < dim; a++) w.d[a] = mps__grid_position(dim, &y->at, j, a) - w.x[a];
+        if (!add_short_wire(dim, y, &w, home, faces)) add_wire(dim, y, &w, home, faces);
     }
 }
+
+MPS_ROW void wire_row(const int dim, const wiring *y, int64_t i)
+{
+    add_row(dim, y, i, y->faces);
+}
+MPS__LOOP(wire_rows, wire_row, wiring)
+
+/* A part of the rows on the host, whose sums are its own. */
+typedef struct parting {
+    const wiring *y;
+    int dim;
+} parting;
 
 static void add_chunk(void *argument, int32_t chunk)
 {
-    const wiring *y = argument;
-    const int64_t n = y->problem->n, count = y->l->cells * y->g->dim;
-    uint64_t *faces = y->faces + chunk * count;
-    memset(faces, 0, (size_t)count * sizeof *faces);
-    for (int64_t i = n * chunk / y->chunks; i < n * (chunk + 1) / y->chunks; i++)
-        add_row(y, i, faces);
+    const parting *p = argument;
+    const wiring y = *p->y;
+    uint64_t *faces = y.faces + chunk * y.count;
+    const int64_t begin = y.n * chunk / y.chunks, end = y.n * (chunk + 1) / y.chunks;
+    memset(faces, 0, (size_t)y.count * sizeof *faces);
+    if (p->dim == 2)
+        for (int64_t i = begin; i < end; i++) add_row(2, &y, i, faces);
+    else
+        for (int64_t i = begin; i < end; i++) add_row(3, &y, i, faces);
 }
 
-/* Links from both sides of the faces above cells begin..end-1. */
-static void set_links(void *argument, int64_t begin, int64_t end)
+MPS_ROW uint64_t sum_of(const wiring *y, int64_t face)
 {
-    const wiring *y = argument;
-    const int dim = y->g->dim;
-    const int64_t count = y->l->cells * dim;
-    for (int64_t f = begin * dim; f < end * dim; f++) {
-        const int64_t cell = f / dim, link = 2 * f + 1, other = y->l->next[link];
-        uint64_t sum = 0;
-        for (int32_t c = 0; c < y->chunks; c++) sum += y->faces[c * count + f];
+    uint64_t sum = 0;
+    for (int32_t c = 0; c < y->chunks; c++) {
+        const uint64_t part = y->faces[c * y->count + face];
+        sum += part < MOST ? part : MOST;
+    }
+    return sum < MOST ? sum : MOST;
+}
+
+/* Links from both sides of the faces above a cell. */
+MPS_ROW void set_link_row(const int dim, const wiring *y, int64_t cell)
+{
+    for (int64_t f = cell * dim; f < (cell + 1) * dim; f++) {
+        const int64_t link = 2 * f + 1, other = y->next[link];
         if (other == cell) continue;
-        y->l->link[link] = sum < MOST ? (float)((double)sum / per_unit) : INFINITY;
-        y->l->link[other * 2 * dim + (link - 1) % (2 * dim)] = y->l->link[link];
+        const uint64_t sum = sum_of(y, f);
+        y->link[link] = sum < MOST ? (float)((double)sum / per_unit) : INFINITY;
+        y->link[other * 2 * dim + (link - 1) % (2 * dim)] = y->link[link];
     }
 }
+MPS__LOOP(set_link_rows, set_link_row, wiring)
 
 static void add_faces(void *into, const void *from)
 {
@@ -162,35 +196,50 @@ static void add_faces(void *into, const void *from)
 }
 
 /* Sums of all chunks into the first, then over the ranks. A pair of two ranks is a wire of the particle that comes first. */
-static int add_ranks(wiring *y)
+static int add_ranks(const mps_ppe_problem *problem, wiring *y)
 {
-    const int64_t count = y->l->cells * y->g->dim;
-    for (int64_t f = 0; f < count; f++) {
-        uint64_t sum = 0;
-        for (int32_t c = 0; c < y->chunks; c++) sum += y->faces[c * count + f];
-        y->faces[f] = sum < MOST ? sum : MOST;
-    }
+    for (int64_t f = 0; f < y->count; f++) y->faces[f] = sum_of(y, f);
     y->chunks = 1;
-    return mps_ppe_reduce(y->problem, (int32_t)count, sizeof *y->faces, y->faces, add_faces)
+    return mps_ppe_reduce(problem, (int32_t)y->count, sizeof *y->faces, y->faces, add_faces)
                ? MPS_PPE_BREAKDOWN
                : 0;
 }
 
-int mps__grid_wires(mps__grid *g, const mps_ppe_problem *given)
+/* On a device all rows add to the same sums. */
+static void add_rows(const mps__grid *g, const mps_parallel *team, const wiring *y)
+{
+    if (g->device) {
+        mps__device_clear(g->device, y->faces, (size_t)y->count * sizeof *y->faces);
+        mps__loop_run(team, &wire_rows, g->dim, y->n, y);
+    } else {
+        mps_parallel_run(team, y->chunks, add_chunk, &(parting){y, g->dim});
+    }
+}
+
+int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem)
 {
     const mps__grid_level *l = &g->level[0];
-    mps_ppe_problem whole = *given;
-    if (g->source && g->source->show(g->source->owner, true, &whole)) return MPS_PPE_NOMEM;
-    const mps_ppe_problem *problem = &whole;
     const mps_parallel *team = mps__team(problem->parallel, problem->n);
-    const int32_t chunks = team && team->threads > 1 ? CHUNKS : 1;
-    if (!mps__grid_reserve_parts(g, (size_t)(chunks * l->cells * g->dim) * sizeof(uint64_t)))
+    wiring y = {.row = problem->row,
+                .key = l->key,
+                .col = problem->col,
+                .home = l->home,
+                .next = l->next,
+                .val = problem->val,
+                .place = mps__grid_many(g) ? g->ranks.place : NULL,
+                .at = mps__grid_positions_of(g, problem),
+                .unit = g->unit,
+                .n = problem->n,
+                .count = l->cells * g->dim,
+                .chunks = team && team->threads > 1 ? CHUNKS : 1,
+                .together = g->device != NULL,
+                .link = l->link};
+    if (!mps__grid_reserve_parts(g, (size_t)(y.chunks * y.count) * sizeof *y.faces))
         return MPS_PPE_NOMEM;
-    wiring y = {.g = g, .l = l, .problem = problem, .chunks = chunks, .faces = g->parts};
-    if (mps__grid_many(g)) y.place = g->ranks.place;
-    mps_parallel_run(team, chunks, add_chunk, &y);
-    const int reason = mps__grid_many(g) ? add_ranks(&y) : 0;
+    y.faces = g->parts;
+    add_rows(g, team, &y);
+    const int reason = mps__grid_many(g) ? add_ranks(problem, &y) : 0;
     if (reason) return reason;
-    mps_parallel_rows(team, l->cells, set_links, &y);
+    mps__loop_run(team, &set_link_rows, g->dim, l->cells, &y);
     return 0;
 }

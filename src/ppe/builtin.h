@@ -21,24 +21,9 @@ extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
-struct mps__device;
-
 /* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation of one rank whose components are not singular:
- * arrays of the problem, but for shift and x, and p are there, and so is its parallel-for. auxgrid is set up on the host; then its grids go
- * to the device, where apply() runs until the next set-up. Returns 0 or a reason of failure. */
-int mps__auxgrid_send(void *self, struct mps__device *d);
-
-/* An equation that is on a device alone. */
-typedef struct mps__equation_there {
-    const mps_ppe_problem *problem; /* with arrays there */
-    /* Copies to the host: what stands beside the matrix and where its rows begin, or the entries too. Returns 0, or non-zero: no memory, or
-     * the device failed. */
-    int (*show)(void *owner, bool entries, mps_ppe_problem *here);
-    void *owner;
-} mps__equation_there;
-/* The same with a set-up from such an equation, whose entries come to the host where they are looked at. */
-int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, struct mps__device *d);
-/* What they have on a device is given back; call it before the device is detached. */
+ * arrays of the problem and p are there, and so is its parallel-for.
+ * What they have on a device is given back; call it before the device is detached. */
 void mps__pcg_leave(void *self);
 void mps__jacobi_leave(void *self);
 void mps__auxgrid_leave(void *self);

@@ -19,14 +19,6 @@ void mps__give(const mps_allocator *allocator, void *block)
     if (block) allocator->release(allocator->user, block);
 }
 
-void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argument,
-                 const mps_exact_values *values)
-{
-    mps_exact_rows(mps__team(problem->parallel, problem->n), problem->n, MPS__BLOCK, body, argument,
-                   values);
-    mps_ppe_total(problem, values);
-}
-
 bool mps__on_any_rank(const mps_ppe_problem *problem, bool here)
 {
     double any = here;

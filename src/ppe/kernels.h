@@ -24,10 +24,6 @@ static inline const mps_parallel *mps__team(const mps_parallel *p, int64_t n)
 void *mps__take(const mps_allocator *allocator, int64_t count, size_t size);
 void mps__give(const mps_allocator *allocator, void *block);
 
-/* Sums and maxima over the rows of all ranks, on all threads if it is worth it; `sum` and `maximum` as in mps_exact_rows(). */
-void mps__reduce(const mps_ppe_problem *problem, mps_exact_fn body, void *argument,
-                 const mps_exact_values *values);
-
 /* y = A x. @return x'y */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);
 /* The same on the device of the problem's parallel-for, without waiting for the sum. */

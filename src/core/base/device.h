@@ -7,7 +7,7 @@
 #include <mps/device.h>
 
 /* Blocks of mps__device_allocator() at a time. */
-enum { MPS__DEVICE_BLOCKS = 32 };
+enum { MPS__DEVICE_BLOCKS = 128 };
 
 /* Memory there that grows and is kept. */
 typedef struct mps__device_block {

@@ -104,10 +104,6 @@ void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms
 
 /* ---- an equation on a device (ppe_device.c) ---- */
 
-/* What a set-up of preconditioners looks at, copied to the host as it is now: what stands beside the matrix and where its rows begin, or its
- * `entries` too. MPS_E_NOMEM, MPS_E_PLUGIN */
-mps_status mps__ppe_show(const mps__ppe *e, const mps_parallel *parallel, bool entries,
-                         mps_ppe_problem *here);
 /* All arrays are on the host from now on, */
 mps_status mps__ppe_come(mps__ppe *e);
 /* and the pressures on the device again. */

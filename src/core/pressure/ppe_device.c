@@ -28,21 +28,6 @@ static void fetch_entries(const mps__ppe *e, const mps__ppe *here)
     mps__device_download(e->device, here->val, e->val, entries * sizeof *e->val);
 }
 
-mps_status mps__ppe_show(const mps__ppe *e, const mps_parallel *parallel, bool entries,
-                         mps_ppe_problem *problem)
-{
-    mps__ppe here;
-    MPS__TRY(reserve_here(e, &here));
-    if (entries)
-        fetch_entries(e, &here);
-    else
-        fetch_rows(e, &here, e->x + e->columns * e->problem.dim);
-    *problem = e->problem;
-    mps__ppe_point(problem, &here);
-    problem->parallel = parallel;
-    return mps__device_status(e->device);
-}
-
 mps_status mps__ppe_come(mps__ppe *e)
 {
     mps__ppe here;

@@ -259,9 +259,7 @@ static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
 {
     mps__solvers *s = self;
     int reason = MPS_PPE_CONVERGED;
-    if (!(s->again && s->ready))
-        reason = mps__device_of(problem->parallel) ? mps__solvers_setup_there(s, problem)
-                                                   : s->pc->setup(s->pc_self, problem);
+    if (!(s->again && s->ready)) reason = s->pc->setup(s->pc_self, problem);
     s->ready = reason == MPS_PPE_CONVERGED;
     return reason;
 }

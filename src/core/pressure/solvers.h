@@ -34,11 +34,6 @@ typedef struct mps__solvers {
     /* of the step in progress; NULL: there is none. Solutions that can be found there are */
     mps__device *device;
     mps__device_block room; /* of equations that are sent there */
-    bool told;              /* the log knows what the set-up of auxgrid copies */
-    /* while the solution is found there: the equation on the host, if it was sent from there; else copies what a set-up looks at */
-    const mps_ppe_problem *here;
-    int (*show)(void *owner, bool entries, mps_ppe_problem *here);
-    void *owner; /* first argument of `show` */
 } mps__solvers;
 
 /* How one matrix of a series is solved. */
@@ -73,8 +68,6 @@ bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
 /* Solve it there. Its arrays and `p` are where its parallel-for runs: on the host, or there already. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                                     mps_ppe_result *result);
-/* Set the preconditioner in use up for an equation there. Returns 0 or a reason of failure. */
-int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there);
 /* Give back what is there; before the device is detached. */
 void mps__solvers_leave(mps__solvers *s, mps__device *d);
 

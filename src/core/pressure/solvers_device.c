@@ -2,9 +2,9 @@
 /* The solution on a device. An equation of the host goes there, and the pressures come back. */
 #include "solvers.h"
 
-enum { ROW, COL, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
+enum { ROW, COL, POSITION, SHIFT, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
 /* Arrays that matrices of a series have in common. */
-enum { SAME = COL + 1 };
+enum { SAME = VAL };
 
 static bool is_jacobi(const mps_preconditioner_ops *pc)
 {
@@ -28,9 +28,12 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
                        mps_ppe_problem *there, double **q)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->row[e->n], numbers = n * sizeof(double);
-    const void *const from[ARRAYS] = {e->row, e->col, e->val, e->diagonal, e->rhs, e->weight, p};
+    const void *const from[ARRAYS] = {e->row,      e->col, e->x,      e->shift, e->val,
+                                      e->diagonal, e->rhs, e->weight, p};
     const size_t bytes[ARRAYS] = {(n + 1) * sizeof *e->row,
                                   entries * sizeof *e->col,
+                                  (size_t)e->dim * numbers,
+                                  numbers,
                                   entries * sizeof *e->val,
                                   numbers,
                                   numbers,
@@ -50,7 +53,8 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
     there->diagonal = (const double *)(void *)(room + begin[DIAGONAL]);
     there->rhs = (const double *)(void *)(room + begin[RHS]);
     if (e->weight) there->weight = (const double *)(void *)(room + begin[WEIGHT]);
-    there->shift = there->x = NULL; /* neither solver nor jacobi looks at them */
+    there->x = (const double *)(void *)(room + begin[POSITION]);
+    there->shift = (const double *)(void *)(room + begin[SHIFT]);
     there->parallel = &s->device->parallel;
     *q = (double *)(void *)(room + begin[PRESSURE]);
     return MPS_OK;
@@ -66,41 +70,9 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
         return mps__device_status(s->device);
     }
     MPS__TRY(send(s, e, p, &there, &q));
-    s->here = e;
     mps__solvers_run(s, &there, q, result);
-    s->here = NULL;
     mps__device_download(s->device, p, q, (size_t)e->n * sizeof *p);
     return mps__device_status(s->device);
-}
-
-/* What the set-up of auxgrid copies, once for each device. */
-static void tell_copies(mps__solvers *s, int64_t down, int64_t up)
-{
-    if (s->told) return;
-    s->told = true;
-    mps__log(
-        s->context, MPS_LOG_INFO,
-        "device '%s': the grids of auxgrid are made on the host; %.3g MB come there in a step, "
-        "%.3g MB go back",
-        s->device->ops.name, 1e-6 * (double)down, 1e-6 * (double)up);
-}
-
-static int set_auxgrid_up(mps__solvers *s, const mps_ppe_problem *there)
-{
-    const mps__equation_there source = {there, s->show, s->owner};
-    if (!s->here) return mps__auxgrid_setup_there(s->pc_self, &source, s->device);
-    const int reason = s->pc->setup(s->pc_self, s->here);
-    return reason ? reason : mps__auxgrid_send(s->pc_self, s->device);
-}
-
-int mps__solvers_setup_there(mps__solvers *s, const mps_ppe_problem *there)
-{
-    if (is_jacobi(s->pc)) return s->pc->setup(s->pc_self, there);
-    const mps_device_info *i = &s->device->info;
-    const int64_t down = i->bytes_down, up = i->bytes_up;
-    const int reason = set_auxgrid_up(s, there);
-    if (!reason) tell_copies(s, i->bytes_down - down, i->bytes_up - up);
-    return reason;
 }
 
 void mps__solvers_leave(mps__solvers *s, mps__device *d)
@@ -111,5 +83,4 @@ void mps__solvers_leave(mps__solvers *s, mps__device *d)
     if (s->spare_self) mps__jacobi_leave(s->spare_self);
     mps__device_leave(d, &s->room);
     s->device = NULL;
-    s->told = false;
 }

@@ -219,13 +219,6 @@ static const mps_use solve_uses[] = {[LEAST] = {"pressure_value", MPS_USE_READ},
                                      {"unknown_numbers", MPS_USE_CHANGE},
                                      {"unknown_places", MPS_USE_READ}};
 
-/* What a preconditioner that the host sets up looks at. */
-static int show_equation(void *owner, bool entries, mps_ppe_problem *here)
-{
-    const mps__world *w = owner;
-    return mps__ppe_show(&w->ppe, &w->host.twins.host_parallel, entries, here) < 0;
-}
-
 /* Whether the equation is solved where it is. The added mass needs it on the host. */
 static bool stays(const mps__step *q)
 {
@@ -262,8 +255,6 @@ static mps_status solve(mps_stage *s)
     terms.value = s->data[LEAST];
     terms.condition = s->data[CONDITIONS];
     solvers->device = mps__twins_device(&q->w->host.twins);
-    solvers->show = show_equation;
-    solvers->owner = q->w;
     const mps_status status = stays(q) ? solve_equation(s, &terms) : solve_here(s);
     solvers->device = NULL;
     return status;

@@ -1,0 +1,213 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid: memory, of the host or of a device. All arrays of the points of a level lie in one block, and all of its cells in another. */
+#include "auxgrid.h"
+#include "kernels.h"
+#include "scan.h"
+
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
+{
+    const int64_t bytes = count * (int64_t)size;
+    if (r->at && bytes <= r->bytes) return r->at;
+    mps__give(&g->allocator, r->at);
+    r->bytes = bytes + bytes / 8 + 64;
+    r->at = mps__take(&g->allocator, r->bytes, 1);
+    if (!r->at) r->bytes = 0;
+    return r->at;
+}
+
+static void drop(mps__grid *g, mps__grid_room *r)
+{
+    mps__give(&g->allocator, r->at);
+    *r = (mps__grid_room){NULL, 0};
+}
+
+/* ---- blocks of several arrays ---- */
+
+/* A block; `base` NULL: it is measured. */
+typedef struct block {
+    char *base;
+    size_t used;
+} block;
+
+static void *put(block *b, int64_t count, size_t size)
+{
+    void *at = b->base ? b->base + b->used : NULL;
+    b->used += ((size_t)count * size + 255) & ~(size_t)255;
+    return at;
+}
+
+static void put_points(block *b, const mps__grid *g, mps__grid_level *l)
+{
+    l->home = put(b, l->points, sizeof *l->home);
+    l->side = put(b, l->points, sizeof *l->side);
+    l->share = put(b, l->points << g->dim, sizeof *l->share);
+    l->list = put(b, l->points, sizeof *l->list);
+}
+
+/* A grid may have no cell at all. */
+static void put_cells(block *b, const mps__grid *g, mps__grid_level *l)
+{
+    const int64_t cells = l->cells, sides = 2 * cells * g->dim;
+    l->key = put(b, cells, sizeof *l->key);
+    l->start = put(b, cells + 1, sizeof *l->start);
+    l->about = put(b, cells * mps__grid_all(g->dim), sizeof *l->about);
+    l->next = put(b, sides, sizeof *l->next);
+    l->link = put(b, sides, sizeof *l->link);
+    l->shift = put(b, cells, sizeof *l->shift);
+    l->inverse = put(b, cells, sizeof *l->inverse);
+    l->kappa = put(b, cells, sizeof *l->kappa);
+    l->count = put(b, cells, sizeof *l->count);
+    l->b = put(b, cells + 1, sizeof *l->b);
+    l->x = put(b, cells + 1, sizeof *l->x);
+}
+
+bool mps__grid_reserve_points(mps__grid *g, mps__grid_level *l)
+{
+    block b = {NULL, 0};
+    put_points(&b, g, l);
+    b = (block){mps__grid_room_of(g, &l->point_room, (int64_t)b.used, 1), 0};
+    put_points(&b, g, l);
+    return b.base;
+}
+
+bool mps__grid_reserve_cells(mps__grid *g, mps__grid_level *l)
+{
+    block b = {NULL, 0};
+    put_cells(&b, g, l);
+    b = (block){mps__grid_room_of(g, &l->cell_room, (int64_t)b.used, 1), 0};
+    put_cells(&b, g, l);
+    return b.base;
+}
+
+/* A cell adds to one at each of its corners at most. */
+static void put_adding(block *b, const mps__grid *g, mps__grid_level *fine, mps__grid_level *l)
+{
+    mps__grid_adding *a = &l->adding;
+    fine->rest = put(b, fine->red, sizeof *fine->rest);
+    a->end = put(b, mps__scan_room(l->cells), sizeof *a->end);
+    a->from = put(b, fine->red << g->dim, sizeof *a->from);
+    a->part = put(b, fine->red << g->dim, sizeof *a->part);
+}
+
+bool mps__grid_reserve_adding(mps__grid *g, mps__grid_level *fine, mps__grid_level *l)
+{
+    block b = {NULL, 0};
+    put_adding(&b, g, fine, l);
+    b = (block){mps__grid_room_of(g, &l->adding_room, (int64_t)b.used, 1), 0};
+    put_adding(&b, g, fine, l);
+    return b.base;
+}
+
+/* Two of keys and places: a sort goes from one to the other. */
+static void put_sorted(block *b, mps__grid_sorted *s, int64_t points)
+{
+    s->key = put(b, 2 * points, sizeof *s->key);
+    s->order = put(b, 2 * points, sizeof *s->order);
+    s->number = put(b, mps__scan_room(points), sizeof *s->number);
+}
+
+bool mps__grid_reserve_sorted(mps__grid *g, int64_t points)
+{
+    block b = {NULL, 0};
+    put_sorted(&b, &g->sorted, points);
+    b = (block){mps__grid_room_of(g, &g->sort_room, (int64_t)b.used, 1), 0};
+    put_sorted(&b, &g->sorted, points);
+    return b.base;
+}
+
+/* ---- scratch ---- */
+
+static void drop_work(mps__grid *g)
+{
+    void *all[] = {g->point_key, g->point_kappa, g->order, g->table_key, g->table_cell, g->parts};
+    for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__give(&g->allocator, all[k]);
+    g->point_key = g->table_key = NULL;
+    g->point_kappa = NULL;
+    g->order = g->table_cell = NULL;
+    g->parts = NULL;
+    g->point_capacity = g->table_capacity = g->order_capacity = 0;
+    g->part_capacity = 0;
+}
+
+int64_t mps__grid_table_for(int64_t cells)
+{
+    int64_t size = 16;
+    while (size < cells + cells / 2) size *= 2;
+    return size;
+}
+
+bool mps__grid_reserve_table(mps__grid *g, int64_t size)
+{
+    if (size <= g->table_capacity) return true;
+    mps__give(&g->allocator, g->table_key);
+    mps__give(&g->allocator, g->table_cell);
+    g->table_key = mps__take(&g->allocator, size, sizeof *g->table_key);
+    g->table_cell = mps__take(&g->allocator, size, sizeof *g->table_cell);
+    g->table_capacity = g->table_key && g->table_cell ? size : 0;
+    return g->table_capacity > 0;
+}
+
+bool mps__grid_reserve_order(mps__grid *g, int64_t cells)
+{
+    if (cells < g->order_capacity) return true;
+    mps__give(&g->allocator, g->order);
+    g->order_capacity = cells + cells / 8 + 1;
+    g->order = mps__take(&g->allocator, 2 * g->order_capacity, sizeof *g->order);
+    if (!g->order) g->order_capacity = 0;
+    return g->order;
+}
+
+/* Of the last grid, and what is told of all. */
+static bool reserve_few(mps__grid *g)
+{
+    const mps_allocator *a = &g->allocator;
+    if (!g->factor)
+        g->factor = mps__take(a, MPS__GRID_DIRECT * MPS__GRID_DIRECT, sizeof *g->factor);
+    if (!g->pivot) g->pivot = mps__take(a, MPS__GRID_DIRECT, sizeof *g->pivot);
+    if (g->device && !g->bad) g->bad = mps__take(a, MPS__GRID_LEVELS, sizeof *g->bad);
+    return g->factor && g->pivot && (g->bad || !g->device);
+}
+
+bool mps__grid_reserve(mps__grid *g, int64_t points)
+{
+    if (!reserve_few(g)) return false;
+    if (g->device && !mps__grid_reserve_sorted(g, points)) return false;
+    if (points <= g->point_capacity && (g->table_capacity > 0 || g->device)) return true;
+    drop_work(g);
+    const int64_t capacity = points + points / 32;
+    g->point_key = mps__take(&g->allocator, capacity, sizeof *g->point_key);
+    g->point_kappa = mps__take(&g->allocator, capacity, sizeof *g->point_kappa);
+    if (g->point_key && g->point_kappa &&
+        (g->device || mps__grid_reserve_table(g, mps__grid_table_for(points / 8))))
+        g->point_capacity = capacity;
+    else
+        drop_work(g);
+    return g->point_capacity > 0;
+}
+
+bool mps__grid_reserve_parts(mps__grid *g, size_t bytes)
+{
+    if (bytes < g->part_capacity) return true;
+    mps__give(&g->allocator, g->parts);
+    g->part_capacity = bytes + bytes / 8 + sizeof(double);
+    g->parts = mps__take(&g->allocator, (int64_t)g->part_capacity, 1);
+    if (!g->parts) g->part_capacity = 0;
+    return g->parts;
+}
+
+void mps__grid_release(mps__grid *g)
+{
+    for (int k = 0; k < MPS__GRID_LEVELS; k++) {
+        drop(g, &g->level[k].point_room);
+        drop(g, &g->level[k].cell_room);
+        drop(g, &g->level[k].adding_room);
+    }
+    drop(g, &g->turn_room);
+    drop(g, &g->sort_room);
+    drop_work(g);
+    mps__grid_ranks_release(g);
+    mps__give(&g->allocator, g->factor);
+    mps__give(&g->allocator, g->pivot);
+    mps__give(&g->allocator, g->bad);
+    g->factor = g->pivot = g->bad = NULL;
+}

@@ -1,0 +1,212 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* auxgrid: the cells of a grid on a device, where no thread can put what it finds into a table of all. Points are sorted by their cells, and a cell
+ * begins where a key differs from the one before. The same cells in the same order as on the host. */
+#include "auxgrid.h"
+#include "scan.h"
+
+/* Points that are put in order together at first; then that many runs become one. */
+enum { FIRST_RUN = 64, WAYS = 4 };
+
+static const uint64_t no_cell = UINT64_MAX, black = (uint64_t)1 << 63;
+
+/* What a loop works on; each uses its own. */
+typedef struct sorting {
+    int64_t n, run; /* points; of a run that is in order */
+    const int64_t *point_key;
+    const uint64_t *key;
+    const int32_t *order;
+    uint64_t *new_key;
+    int32_t *new_order;
+    int64_t *number;
+} sorting;
+
+/* ---- order ---- */
+
+/* Red cells come first. */
+MPS_ROW uint64_t sort_key(int64_t key)
+{
+    if (key < 0) return no_cell;
+    return (uint64_t)key | (mps__grid_is_red(key) ? 0 : black);
+}
+
+MPS_ROW void rank_row(const int dim, const sorting *f, int64_t i)
+{
+    const int64_t begin = i - i % FIRST_RUN,
+                  end = begin + FIRST_RUN < f->n ? begin + FIRST_RUN : f->n;
+    const uint64_t own = sort_key(f->point_key[i]);
+    int64_t to = begin;
+    (void)dim;
+    for (int64_t k = begin; k < end; k++) {
+        const uint64_t other = sort_key(f->point_key[k]);
+        to += other < own || (other == own && k < i);
+    }
+    f->new_key[to] = own;
+    f->new_order[to] = (int32_t)i;
+}
+MPS__LOOP_ANY(rank_rows, rank_row, sorting)
+
+/* Places of a run that come before place a. Runs of lower points come first where keys are equal. */
+MPS_ROW int64_t count_before(const sorting *f, int64_t a, int64_t run)
+{
+    const int64_t begin = run * f->run < f->n ? run * f->run : f->n,
+                  end = begin + f->run < f->n ? begin + f->run : f->n;
+    const uint64_t key = f->key[a];
+    int64_t lo = begin, hi = end;
+    while (lo < hi) {
+        const int64_t b = lo + (hi - lo) / 2;
+        if (f->key[b] < key || (f->key[b] == key && begin < a))
+            lo = b + 1;
+        else
+            hi = b;
+    }
+    return lo - begin;
+}
+
+/* Runs that are in order become one of several: a place knows its new one from its own in its run, and from those of each other run before it. */
+MPS_ROW void merge_row(const int dim, const sorting *f, int64_t a)
+{
+    const int64_t own = a / f->run, first = own - own % WAYS;
+    int64_t to = first * f->run + a % f->run;
+    (void)dim;
+    for (int64_t run = first; run < first + WAYS; run++)
+        if (run != own) to += count_before(f, a, run);
+    f->new_key[to] = f->key[a];
+    f->new_order[to] = f->order[a];
+}
+MPS__LOOP_ANY(merge_rows, merge_row, sorting)
+
+/* ---- cells ---- */
+
+MPS_ROW bool begins(const sorting *f, int64_t a)
+{
+    return f->key[a] != no_cell && (a == 0 || f->key[a] != f->key[a - 1]);
+}
+
+MPS_ROW void begin_row(const int dim, const sorting *f, int64_t a)
+{
+    (void)dim;
+    f->number[a] = begins(f, a);
+}
+MPS__LOOP_ANY(begin_rows, begin_row, sorting)
+
+/* Numbers of cells, and of red ones. */
+MPS_ROW void count_row(const int dim, const sorting *f, int64_t a, double *most)
+{
+    const double cells = (double)f->number[a];
+    (void)dim;
+    if (cells > most[0]) most[0] = cells;
+    if (!(f->key[a] & black) && cells > most[1]) most[1] = cells;
+}
+MPS__VALUES_ANY(count_cells, count_row, sorting, 0, 2)
+
+void mps__grid_sort(mps__grid *g, mps__grid_level *l)
+{
+    const mps__grid_sorted *s = &g->sorted;
+    const int64_t n = l->points;
+    sorting f = {.n = n,
+                 .run = FIRST_RUN,
+                 .point_key = g->point_key,
+                 .new_key = s->key,
+                 .new_order = s->order,
+                 .number = s->number};
+    double most[2] = {0, 0};
+    mps__loop_run(g->parallel, &rank_rows, MPS__ANY_DIM, n, &f);
+    f.key = s->key;
+    f.order = s->order;
+    f.new_key = s->key + n;
+    f.new_order = s->order + n;
+    for (; f.run < n; f.run *= WAYS) {
+        mps__loop_run(g->parallel, &merge_rows, MPS__ANY_DIM, n, &f);
+        const sorting from = f;
+        f.key = from.new_key;
+        f.order = from.new_order;
+        f.new_key = (uint64_t *)from.key;
+        f.new_order = (int32_t *)from.order;
+    }
+    mps__loop_run_cheap(g->parallel, &begin_rows, MPS__ANY_DIM, n, &f);
+    mps__scan(g->parallel, s->number, n);
+    mps__values_run(g->parallel, &count_cells, MPS__ANY_DIM, n, &f, NULL, most);
+    g->sorted.key_now = f.key;
+    g->sorted.order_now = f.order;
+    l->cells = (int64_t)most[0];
+    l->red = (int64_t)most[1];
+}
+
+/* ---- homes, keys, neighbours ---- */
+
+typedef struct numbering {
+    int64_t n, cells, red;
+    const uint64_t *sorted;
+    const int32_t *order;
+    const int64_t *number;
+    int32_t *home, *list, *start, *next;
+    int64_t *key;
+    float *link;
+} numbering;
+
+/* A place of the order. */
+MPS_ROW void number_row(const int dim, const numbering *f, int64_t a)
+{
+    const int32_t point = f->order[a];
+    const bool none = f->sorted[a] == no_cell;
+    const int64_t cell = f->number[a] - 1;
+    (void)dim;
+    f->home[point] = none ? -1 : (int32_t)cell;
+    if (none) return;
+    f->list[a] = point;
+    if (a == 0 || f->number[a - 1] <= cell) {
+        f->key[cell] = (int64_t)(f->sorted[a] & ~black);
+        f->start[cell] = (int32_t)a;
+    }
+    if (cell == f->cells - 1 && (a == f->n - 1 || f->sorted[a + 1] == no_cell))
+        f->start[f->cells] = (int32_t)(a + 1);
+}
+MPS__LOOP_ANY(number_rows, number_row, numbering)
+
+/* The cell of a key of one colour, `none` where there is not. */
+MPS_ROW int32_t cell_of(const numbering *f, int64_t key, int64_t none)
+{
+    const bool red = mps__grid_is_red(key);
+    int64_t lo = red ? 0 : f->red, hi = red ? f->red : f->cells;
+    const int64_t end = hi;
+    while (lo < hi) {
+        const int64_t c = lo + (hi - lo) / 2;
+        if (f->key[c] < key)
+            lo = c + 1;
+        else
+            hi = c;
+    }
+    return (int32_t)(lo < end && f->key[lo] == key ? lo : none);
+}
+
+MPS_ROW void neighbour_row(const int dim, const numbering *f, int64_t c)
+{
+    const int64_t key = f->key[c], last = (1 << MPS__GRID_BITS) - 1;
+    for (int a = 0; a < dim; a++) {
+        const int64_t at = mps__grid_coordinate(key, a), one = (int64_t)1 << (a * MPS__GRID_BITS),
+                      side = c * 2 * dim + 2 * a;
+        f->next[side] = at == 0 ? (int32_t)c : cell_of(f, key - one, c);
+        f->next[side + 1] = at == last ? (int32_t)c : cell_of(f, key + one, c);
+        f->link[side] = f->link[side + 1] = 0;
+    }
+}
+MPS__LOOP(neighbour_rows, neighbour_row, numbering)
+
+void mps__grid_number(mps__grid *g, mps__grid_level *l)
+{
+    const mps__grid_sorted *s = &g->sorted;
+    const numbering f = {.n = l->points,
+                         .cells = l->cells,
+                         .red = l->red,
+                         .sorted = s->key_now,
+                         .order = s->order_now,
+                         .number = s->number,
+                         .home = l->home,
+                         .list = l->list,
+                         .start = l->start,
+                         .next = l->next,
+                         .key = l->key,
+                         .link = l->link};
+    mps__loop_run(g->parallel, &number_rows, MPS__ANY_DIM, l->points, &f);
+    mps__loop_run(g->parallel, &neighbour_rows, g->dim, l->cells, &f);
+}
