@@ -270,9 +270,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {155, 192}, {36, 46}, {0.01, 28}, {70, 105}},
-        {"imps", 3, {162, 201}, {37, 47}, {0.005, 14}, {74, 100}},
-        {"mmps", 2, {148, 189}, {36, 46}, {5, 125}, {68, 175}},
+        {"imps", 2, {174, 192}, {38, 46}, {0.01, 2}, {70, 84}},
+        {"imps", 3, {183, 201}, {39, 47}, {0.005, 1}, {74, 88}},
+        {"mmps", 2, {171, 189}, {38, 46}, {5, 11}, {68, 82}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
@@ -312,7 +312,7 @@ static void costs(void **state)
  * come from the host. */
 static void searches_copy_little(void **state)
 {
-    static const double range[2][2][2] = {{{0.02, 26}, {3, 30}}, {{0.005, 13}, {3, 19}}};
+    static const double range[2][2][2] = {{{0.02, 0.1}, {3, 5}}, {{0.005, 0.02}, {3, 5}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *sim = rolling("imps", dim);
