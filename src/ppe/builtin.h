@@ -38,6 +38,17 @@ typedef struct mps__equation_there {
 } mps__equation_there;
 /* The same with a set-up from such an equation, whose entries come to the host where they are looked at. */
 int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, struct mps__device *d);
+/* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
+typedef struct mps__pcg_hint {
+    bool ready; /* the set-up of the preconditioner is done, and will be left out */
+    /* NULL, or queue what is to be known of the pressures once they are found: one number of the device. It may be asked of others before, and
+     * changes nothing else that is read. */
+    void (*look)(void *owner, double *to);
+    void *owner;
+    double seen; /* out: that number; NaN: it was not asked of the last pressures */
+} mps__pcg_hint;
+/* It must live until there is another one, or NULL. */
+void mps__pcg_expect(void *self, mps__pcg_hint *hint);
 /* What they have on a device is given back; call it before the device is detached. */
 void mps__pcg_leave(void *self);
 void mps__jacobi_leave(void *self);

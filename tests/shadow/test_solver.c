@@ -18,6 +18,9 @@ static void solutions(void **state)
 
 /* ---- what an iteration costs ---- */
 
+/* Of eight iterations: those behind them, which find the correction and its residual where the run has stopped. */
+enum { BEHIND = 4 };
+
 /* Launches of one iteration, and what waits for eight of them. */
 typedef struct cost {
     const char *preconditioner;
@@ -78,9 +81,9 @@ static void costs(void **state)
         counts_of(sim, c, 16, many);
         print_message("%s, %d particles: %g launches of an iteration, %lld waits for eight\n",
                       c->preconditioner, c->lattice.nx * c->lattice.ny,
-                      (double)(many[1] - few[1]) / 8, (long long)(many[0] - few[0]));
+                      (double)(many[1] - few[1] - BEHIND) / 8, (long long)(many[0] - few[0]));
         assert_int_equal(many[0] - few[0], c->waits);
-        assert_int_equal(many[1] - few[1], 8 * c->launches);
+        assert_int_equal(many[1] - few[1], 8 * c->launches + BEHIND);
         mps_sim_destroy(sim);
     }
 }

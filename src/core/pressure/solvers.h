@@ -34,6 +34,7 @@ typedef struct mps__solvers {
     /* of the step in progress; NULL: there is none. Solutions that can be found there are */
     mps__device *device;
     mps__device_block room; /* of equations that are sent there */
+    mps__pcg_hint hint;     /* for solutions there */
     bool told;              /* the log knows what the set-up of auxgrid copies */
     /* while the solution is found there: the equation on the host, if it was sent from there; else copies what a set-up looks at */
     const mps_ppe_problem *here;
