@@ -41,6 +41,10 @@ int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, stru
 /* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
 typedef struct mps__pcg_hint {
     bool ready; /* the set-up of the preconditioner is done, and will be left out */
+    /* NULL, or a number of the device that is not known yet. Above -INFINITY, the equation must not be solved: the solver ends before it
+     * begins, with MPS_PPE_NAN. */
+    const double *doubt;
+    bool refused; /* out: it did */
     /* NULL, or queue what is to be known of the pressures once they are found: one number of the device. It may be asked of others before, and
      * changes nothing else that is read. */
     void (*look)(void *owner, double *to);

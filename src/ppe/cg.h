@@ -15,14 +15,14 @@ typedef struct mps__cg {
     const mps_preconditioner_ops *pc; /* NULL: none */
     void *pc_self;
     mps__pcg_hint *hint;
-    void *room;                    /* [mps__cg_room()] bytes */
+    void *room;                    /* [mps__cg_bytes()] bytes */
     double *p;                     /* first guess and solution */
     double *start;                 /* scratch: the guess, */
     double *x, *r;                 /* a correction, and what is left of the right side */
     double *array[MPS__CG_ARRAYS]; /* scratch */
 } mps__cg;
 
-size_t mps__cg_room(void);
+size_t mps__cg_bytes(void);
 /* Solve A p = rhs, to the limits of the problem. Returns a reason; `result` has the numbers. */
 int mps__cg_solve(const mps__cg *c, mps_ppe_result *result);
 

@@ -102,7 +102,7 @@ static bool make_arrays(krylov *k, int64_t capacity)
     mps__vector_point(k->b, k->residual);
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
-    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_room()))) return false;
+    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_bytes()))) return false;
     return mps__space_grow(&k->space, capacity);
 }
 

@@ -334,6 +334,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         MPS__TRY(mps__solvers_solve_there(s, &limited, p, result));
     else
         mps__solvers_run(s, &limited, p, result);
+    if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
     /* of a residual that is finite all pressures are */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
