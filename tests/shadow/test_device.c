@@ -270,9 +270,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {155, 175}, {36, 44}, {18, 28}, {85, 105}},
-        {"imps", 3, {162, 182}, {37, 45}, {7, 14}, {80, 100}},
-        {"mmps", 2, {148, 170}, {36, 46}, {95, 125}, {135, 175}},
+        {"imps", 2, {166, 186}, {22, 26}, {18, 28}, {85, 105}},
+        {"imps", 3, {166, 186}, {23, 27}, {7, 14}, {80, 100}},
+        {"mmps", 2, {152, 172}, {32, 36}, {95, 125}, {135, 175}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
