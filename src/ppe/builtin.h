@@ -40,7 +40,7 @@ typedef struct mps__equation_there {
 int mps__auxgrid_setup_there(void *self, const mps__equation_there *source, struct mps__device *d);
 /* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
 typedef struct mps__pcg_hint {
-    bool ready; /* the set-up of the preconditioner is done, and will be left out */
+    bool ready; /* the set-up of the preconditioner waits for nothing, or is left out */
     /* NULL, or a number of the device that is not known yet. Above -INFINITY, the equation must not be solved: the solver ends before it
      * begins, with MPS_PPE_NAN. */
     const double *doubt;

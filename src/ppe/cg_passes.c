@@ -159,22 +159,26 @@ static int obstacle_of(const mps__cg_numbers *n)
     return n->stop == NOWHERE || n->stop == REFUSED ? MPS_PPE_NAN : -1;
 }
 
-/* Wait for what the beginning has found, then for the set-up of the preconditioner. Returns a reason that ends the solution, < 0: none. */
-static int set_up(mps__cg_solving *s, mps_ppe_result *result)
+/* Wait for what the beginning has found. Returns a reason that ends the solution, < 0: none. */
+static int look_at_beginning(mps__cg_solving *s, mps_ppe_result *result)
 {
-    const mps__cg *c = s->c;
     mps__cg_numbers n = fetch(s);
     if (n.stop == NOWHERE) {
         queue_zeros(s);
         n = fetch(s);
     }
     note_guess(s, result, &n);
-    if (s->device->failed) return MPS_PPE_BREAKDOWN;
-    if (obstacle_of(&n) >= 0) return obstacle_of(&n);
+    return s->device->failed ? MPS_PPE_BREAKDOWN : obstacle_of(&n);
+}
+
+/* The preconditioner. Returns 0 or a reason of failure. */
+static int set_up(const mps__cg *c, mps_ppe_result *result)
+{
+    if (!c->pc) return 0;
     const double t = mps__seconds();
     const int reason = c->pc->setup(c->pc_self, c->problem);
     result->setup_seconds = mps__seconds() - t;
-    return reason ? reason : -1;
+    return reason;
 }
 
 /* The first run, where the host has not looked yet whether it begins. */
@@ -252,8 +256,10 @@ int mps__cg_solve(const mps__cg *c, mps_ppe_result *result)
     const bool ready = !c->pc || (c->hint && c->hint->ready);
     mps__cg_solving s = begin(c);
     queue_beginning(&s);
-    int reason = ready ? -1 : set_up(&s, result);
+    int reason = ready ? -1 : look_at_beginning(&s, result);
     if (reason >= 0) return reason;
+    reason = set_up(c, result);
+    if (reason) return reason;
     reason = passes(&s, result, !ready);
     const bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
     if (failed || !(mps__result_excess(problem, result) <= s.excess)) {
