@@ -22,8 +22,24 @@ extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
 /* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation of one rank whose components are not singular:
- * arrays of the problem and p are there, and so is its parallel-for.
- * What they have on a device is given back; call it before the device is detached. */
+ * arrays of the problem and p are there, and so is its parallel-for. */
+
+/* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
+typedef struct mps__pcg_hint {
+    bool ready; /* the set-up of the preconditioner waits for nothing, or is left out */
+    /* NULL, or a number of the device that is not known yet. Above -INFINITY, the equation must not be solved: the solver ends before it
+     * begins, with MPS_PPE_NAN. */
+    const double *doubt;
+    bool refused; /* out: it did */
+    /* NULL, or queue what is to be known of the pressures once they are found: one number of the device. It may be asked of others before, and
+     * changes nothing else that is read. */
+    void (*look)(void *owner, double *to);
+    void *owner;
+    double seen; /* out: that number; NaN: it was not asked of the last pressures */
+} mps__pcg_hint;
+/* It must live until there is another one, or NULL. */
+void mps__pcg_expect(void *self, mps__pcg_hint *hint);
+/* What they have on a device is given back; call it before the device is detached. */
 void mps__pcg_leave(void *self);
 void mps__jacobi_leave(void *self);
 void mps__auxgrid_leave(void *self);

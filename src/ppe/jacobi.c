@@ -57,16 +57,28 @@ typedef struct operands {
     double *z;
 } operands;
 
+/* An empty row is a particle without neighbours, its residual is 0. */
+MPS_ROW double inverse_of(double d)
+{
+    return d > 0 ? 1 / d : 1;
+}
+
 MPS_ROW void invert_row(const int dim, const operands *o, int64_t i, double *found)
 {
     const double d = o->x[i];
     (void)dim;
     if (!isfinite(d)) found[POISON] = 1;
     if (d < 0) found[NEGATIVE] = 1;
-    /* an empty row is a particle without neighbours, its residual is 0 */
-    o->z[i] = d > 0 ? 1 / d : 1;
+    o->z[i] = inverse_of(d);
 }
 MPS__VALUES_ANY(invert_rows, invert_row, operands, 0, VALUES)
+
+MPS_ROW void invert_there(const int dim, const operands *o, int64_t i)
+{
+    (void)dim;
+    o->z[i] = inverse_of(o->x[i]);
+}
+MPS__LOOP_ANY(invert_rows_there, invert_there, operands)
 
 static int setup(void *self, const mps_ppe_problem *problem)
 {
@@ -76,8 +88,14 @@ static int setup(void *self, const mps_ppe_problem *problem)
     j->n = problem->n;
     j->parallel = problem->parallel;
     double found[VALUES] = {0};
+    const operands rows = {.x = problem->diagonal, .z = j->inverse};
+    /* a solver there does not begin with what is looked for below */
+    if (mps__device_of(problem->parallel)) {
+        mps__loop_run(problem->parallel, &invert_rows_there, MPS__ANY_DIM, problem->n, &rows);
+        return 0;
+    }
     mps__values_run(mps__team(problem->parallel, problem->n), &invert_rows, MPS__ANY_DIM,
-                    problem->n, &(operands){.x = problem->diagonal, .z = j->inverse}, NULL, found);
+                    problem->n, &rows, NULL, found);
     mps_ppe_total(problem, &(mps_exact_values){.maxima = VALUES, .maximum = found});
     return found[POISON] > 0 ? MPS_PPE_NAN : found[NEGATIVE] > 0 ? MPS_PPE_INDEFINITE : 0;
 }

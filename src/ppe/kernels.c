@@ -167,9 +167,20 @@ void mps__result_begin(mps_ppe_result *result)
 
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result)
 {
-    double norm = result->residual == 0 ? 0 : result->residual / problem->tolerance;
-    double divergence = problem->divergence > 0 ? result->divergence / problem->divergence : 0;
-    return norm >= divergence ? norm : divergence;
+    return mps__excess_of(result->residual, problem->tolerance, result->divergence,
+                          problem->divergence);
+}
+
+int mps__progress_after(mps__progress *p, double excess, int failure)
+{
+    enum { IDLE_PASSES = 4 }; /* before giving up */
+    const bool first = p->passes++ == 0, better = excess < 0.9 * p->best;
+    if (excess <= 1) return MPS_PPE_CONVERGED;
+    /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
+    if (failure && (failure != MPS_PPE_BREAKDOWN || (first && !better))) return failure;
+    p->idle = better ? 0 : p->idle + 1;
+    if (excess < p->best) p->best = excess;
+    return p->idle < IDLE_PASSES ? -1 : MPS_PPE_MAX_ITERATIONS;
 }
 
 double mps__seconds(void)

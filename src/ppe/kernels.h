@@ -8,6 +8,7 @@
 #include "vectors.h"
 #include <mps/exact.h>
 #include <mps/ppe.h>
+#include <mps/stage.h>
 #include <stdbool.h>
 
 /* Elements of a block; elements that are worth a second thread in loops of next to nothing each. */
@@ -58,8 +59,28 @@ void mps__components_center(const mps_ppe_problem *problem, double *p, mps__comp
 
 /* What a solver reports before it has done anything: no memory. */
 void mps__result_begin(mps_ppe_result *result);
-/* How far a result is above the wanted limits; at most 1: both are met. */
+/* How far a residual and a divergence are above the wanted limits; at most 1: both are met. A limit of divergence of 0: it is not asked. */
+MPS_ROW double mps__excess_of(double residual, double tolerance, double divergence, double limit)
+{
+    const double norm = residual == 0 ? 0 : residual / tolerance,
+                 other = limit > 0 ? divergence / limit : 0;
+    return norm >= other ? norm : other;
+}
 double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *result);
+/* The residual that a pass aims at, which begins at `now`: never deeper than a recursive residual can be trusted. */
+MPS_ROW double mps__aim(double wanted, double now)
+{
+    const double deepest = 1e-10 * now;
+    return wanted >= deepest ? wanted : deepest;
+}
+
+/* Passes of a solver that stops on a residual of its own: they go on until the true one is small enough. */
+typedef struct mps__progress {
+    int passes, idle; /* in all; the last ones, without progress */
+    double best;      /* excess, that of the guess at first */
+} mps__progress;
+/* After a pass that has reached `excess` and found `failure`, 0: none. @return the reason that ends them, < 0: they go on */
+int mps__progress_after(mps__progress *p, double excess, int failure);
 
 double mps__seconds(void); /* monotonic */
 

@@ -6,9 +6,6 @@
 #include "kernels.h"
 #include <math.h>
 
-enum { IDLE_PASSES = 4 };            /* passes without progress before giving up */
-static const double DEEPEST = 1e-10; /* residual reduction of one pass */
-
 typedef struct krylov {
     const mps__krylov_kind *kind;
     const mps__solver_log *log;
@@ -23,7 +20,8 @@ typedef struct krylov {
     const mps_ppe_problem *problem;
     const mps_preconditioner_ops *pc;
     void *pc_self;
-    int failure; /* reason found by a callback, 0: none */
+    mps__pcg_hint *hint; /* NULL: none */
+    int failure;         /* reason found by a callback, 0: none */
 } krylov;
 
 /* ---- callbacks of SUNDIALS: non-zero stops the solver ---- */
@@ -104,7 +102,7 @@ static bool make_arrays(krylov *k, int64_t capacity)
     mps__vector_point(k->b, k->residual);
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
-    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_room()))) return false;
+    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_bytes()))) return false;
     return mps__space_grow(&k->space, capacity);
 }
 
@@ -121,6 +119,12 @@ static void settle(krylov *k, const mps_parallel *parallel)
 void mps__krylov_leave(void *self)
 {
     settle(self, NULL);
+}
+
+void mps__krylov_expect(void *self, mps__pcg_hint *hint)
+{
+    krylov *k = self;
+    k->hint = hint;
 }
 
 /* All that SUNDIALS allocates, made once and before the first step. */
@@ -166,8 +170,8 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
 
 /* ---- solution ---- */
 
-/* Of SUNDIALS. @return iterations used */
-static int run_here(krylov *k, int iterations, double delta)
+/* @return iterations used */
+static int run_sundials(krylov *k, int iterations, double delta)
 {
     SUNLinSolSetZeroGuess(k->solver, SUNTRUE);
     const int flag = k->kind->run(k->solver, k->pc != NULL, iterations, k->x, k->b, delta);
@@ -175,26 +179,6 @@ static int run_here(krylov *k, int iterations, double delta)
                          flag == SUNLS_CONV_FAIL;
     if (!stopped && !k->failure) k->failure = MPS_PPE_BREAKDOWN;
     return SUNLinSolNumIters(k->solver);
-}
-
-/* The same on a device. */
-static int run_there(krylov *k, int iterations, double delta)
-{
-    const mps__space *s = &k->space;
-    mps__cg c = {.problem = k->problem,
-                 .pc = k->pc,
-                 .pc_self = k->pc_self,
-                 .room = k->room,
-                 .x = k->correction,
-                 .r = k->residual,
-                 .weight = s->weight,
-                 .norm_limit = s->norm_limit,
-                 .divergence_limit = s->divergence_limit,
-                 .delta = delta,
-                 .most = iterations};
-    mps__space_lend(&k->space, MPS__CG_ARRAYS, c.array);
-    k->failure = mps__cg_run(&c);
-    return c.used;
 }
 
 /* One run of the method on A d = residual; p takes d. */
@@ -207,7 +191,7 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     mps__components_center(problem, k->residual, k->sums);
     k->failure = 0;
     const int left = problem->max_iterations - result->iterations;
-    result->iterations += k->room ? run_there(k, left, delta) : run_here(k, left, delta);
+    result->iterations += run_sundials(k, left, delta);
     if (k->pc && !k->kind->symmetric) {
         int reason = k->pc->apply(k->pc_self, d, k->inner);
         if (reason) k->failure = reason;
@@ -220,32 +204,26 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
 }
 
 /* Residual limit of the next run. Conjugate gradients measure the excess itself, the others the 2-norm. Where the first
- * limit has proved too loose it aims a factor below; never deeper than a recursive residual can be trusted. */
+ * limit has proved too loose it aims a factor below. */
 static double next_limit(const krylov *k, const mps_ppe_result *result, double norm, bool first)
 {
     double excess = mps__result_excess(k->problem, result);
     double now = k->kind->symmetric ? excess : result->residual * norm;
     double wanted = first && !k->kind->symmetric ? k->space.norm_limit
                                                  : now / excess * (first ? 1 : 0.5);
-    return fmax(wanted, DEEPEST * now);
+    return mps__aim(wanted, now);
 }
 
 static int passes(krylov *k, double *p, double norm, mps_ppe_result *result)
 {
-    double best = mps__result_excess(k->problem, result);
-    for (int idle = 0, pass = 0; idle < IDLE_PASSES; pass++) {
+    mps__progress progress = {.best = mps__result_excess(k->problem, result)};
+    for (;;) {
         if (result->iterations >= k->problem->max_iterations) return MPS_PPE_MAX_ITERATIONS;
-        run(k, p, next_limit(k, result, norm, pass == 0), result);
-        double excess = mps__result_excess(k->problem, result);
-        if (excess <= 1) return MPS_PPE_CONVERGED;
-        bool progress = excess < 0.9 * best;
-        /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
-        if (k->failure && (k->failure != MPS_PPE_BREAKDOWN || (pass == 0 && !progress)))
-            return k->failure;
-        idle = progress ? 0 : idle + 1;
-        if (excess < best) best = excess;
+        run(k, p, next_limit(k, result, norm, progress.passes == 0), result);
+        const int reason = mps__progress_after(&progress, mps__result_excess(k->problem, result),
+                                               k->failure);
+        if (reason >= 0) return reason;
     }
-    return MPS_PPE_MAX_ITERATIONS;
 }
 
 static int setup(krylov *k, mps_ppe_result *result)
@@ -280,6 +258,22 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
     return reason;
 }
 
+/* All of it on a device. */
+static int attempt_there(krylov *k, double *p, mps_ppe_result *result)
+{
+    mps__cg c = {.problem = k->problem,
+                 .pc = k->pc,
+                 .pc_self = k->pc_self,
+                 .hint = k->hint,
+                 .room = k->room,
+                 .p = p,
+                 .start = k->start,
+                 .x = k->correction,
+                 .r = k->residual};
+    mps__space_lend(&k->space, MPS__CG_ARRAYS, c.array);
+    return mps__cg_solve(&c, result);
+}
+
 int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *allocator, void **self)
 {
     krylov *k = mps__take(allocator, 1, sizeof *k);
@@ -299,12 +293,12 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 {
     krylov *k = self;
     mps__result_begin(result);
-    mps__guess_clean(problem, p);
+    if (!mps__device_of(problem->parallel)) mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;
     k->pc_self = pc_self;
-    result->reason = attempt(k, p, result);
+    result->reason = k->room ? attempt_there(k, p, result) : attempt(k, p, result);
 }
 
 void mps__krylov_destroy(const mps_allocator *allocator, void *self)

@@ -3,6 +3,7 @@
 #ifndef MPS_PPE_KRYLOV_H
 #define MPS_PPE_KRYLOV_H
 
+#include "builtin.h"
 #include "vector.h"
 
 /* What sets one method apart. */
@@ -19,6 +20,8 @@ typedef struct mps__krylov_kind {
 int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *allocator, void **self);
 void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
                        void *pc_self, double *p, mps_ppe_result *result);
+/* mps__pcg_expect() */
+void mps__krylov_expect(void *self, mps__pcg_hint *hint);
 /* What it has on a device is given back. */
 void mps__krylov_leave(void *self);
 void mps__krylov_destroy(const mps_allocator *allocator, void *self);

@@ -29,6 +29,11 @@ void mps__pcg_leave(void *self)
     mps__krylov_leave(self);
 }
 
+void mps__pcg_expect(void *self, mps__pcg_hint *hint)
+{
+    mps__krylov_expect(self, hint);
+}
+
 const mps_solver_ops mps__solver_pcg = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,

@@ -195,13 +195,6 @@ static void norm_range(const operands *o, int64_t begin, int64_t end, mps_exact 
 }
 MPS__VALUES_BY(norm_rows, norm_row, norm_range, operands, 1, 1)
 
-void mps__vectors_gather_norms(const mps_ppe_problem *problem, const double *x,
-                               const double *weight, mps__gathered *to)
-{
-    mps__values_gather(mps__device_of(problem->parallel), &norm_rows, MPS__ANY_DIM, problem->n,
-                       &(operands){.x = x, .y = weight}, to);
-}
-
 void mps__vectors_norms(const mps_ppe_problem *problem, const double *x, const double *weight,
                         double *squares, double *largest)
 {

@@ -41,8 +41,6 @@ typedef struct mps__gathered {
 } mps__gathered;
 void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
                              mps__gathered *to);
-void mps__vectors_gather_norms(const mps_ppe_problem *problem, const double *x,
-                               const double *weight, mps__gathered *to);
 /* Largest of factor x, or of |x| if the factor is 0; not below `least`. A NaN does not count. */
 double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, double factor,
                             double least);

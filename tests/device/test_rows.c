@@ -85,7 +85,16 @@ static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
                                        "cg__decisions in 2-D",
                                        "cg__turns in 2-D",
                                        "cg__advances in 2-D",
-                                       "jacobi__invert_rows in 2-D"};
+                                       "cg_passes__beginnings in 2-D",
+                                       "cg_passes__guesses in 2-D",
+                                       "cg_passes__checks in 2-D",
+                                       "cg_passes__poisons in 2-D",
+                                       "cg_passes__corrections in 2-D",
+                                       "cg_passes__tellings in 2-D",
+                                       "ppe__bounded_rows in 2-D",
+                                       "ppe__settle_rows in 2-D",
+                                       "levels__lacking_rows in 2-D",
+                                       "jacobi__invert_rows_there in 2-D"};
 
 /* So many cells that auxgrid has a second grid; and jacobi. */
 static mps_sim *fine(int32_t dim, const char *preconditioner)

@@ -84,6 +84,11 @@ static inline void with_negative_row(kit_system *s)
     s->diagonal[5] = -s->diagonal[5];
 }
 
+static inline void with_infinite_row(kit_system *s)
+{
+    s->diagonal[7] = INFINITY;
+}
+
 /* Curvatures overflow. */
 static inline void with_large_numbers(kit_system *s)
 {
@@ -180,6 +185,7 @@ static inline void compare_solutions(mps_sim *sim, int part)
         {"wide tolerance", MPS_PPE_CONVERGED, 2000, 0, 0.9, without_weights},
         {"negative curvature", MPS_PPE_INDEFINITE, 2000, 0, 1e-6, with_curvature},
         {"negative row", MPS_PPE_INDEFINITE, 2000, 0, 1e-6, with_negative_row},
+        {"infinite row", MPS_PPE_NAN, 2000, 0, 1e-6, with_infinite_row},
         {"large numbers", -1, 2000, 0, 1e-6, with_large_numbers}};
     for (size_t l = 0; l < sizeof lattices / sizeof lattices[0]; l++)
         for (int k = 0; k < 3; k++) {

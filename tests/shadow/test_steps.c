@@ -225,6 +225,7 @@ static void other_solutions(void **state)
         shadow_attach(&s, pair[1]);
         go(pair[0], 8);
         go(pair[1], 8);
+        assert_string_equal(mps_sim_error(pair[0]), mps_sim_error(pair[1]));
         same(pair[0], pair[1]);
         if (k >= 8) same_loads(pair[0], pair[1]);
         same_memory(pair[0], pair[1]);

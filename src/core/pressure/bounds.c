@@ -68,22 +68,6 @@ static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
     return MPS_OK;
 }
 
-typedef struct bounded {
-    const int32_t *condition, *particle;
-} bounded;
-
-MPS_ROW bool has_least(const bounded *f, int64_t r)
-{
-    return f->condition[f->particle[r]] == MPS_ROW_LEAST;
-}
-MPS__FIRST(bounded_rows, has_least, bounded)
-
-static bool any_bounded(const mps__ppe *e, const mps__ppe_terms *t)
-{
-    return mps__first_run(e->parallel, &bounded_rows, e->n, &(bounded){t->condition, e->particle}) <
-           e->n;
-}
-
 static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
 {
     b->change[b->changes++] = (struct mps__change){place, row, e->rhs[row], e->shift[row],
@@ -169,11 +153,11 @@ static bool on_any_rank(const mps__ppe *e, bool here)
     return any > 0;
 }
 
-/* @return whether the set has changed */
-static bool choose(mps__bounds *b, const mps__ppe *e)
+/* @param seen  what a solution on a device has told of it @return whether the set has changed */
+static bool choose(mps__bounds *b, const mps__ppe *e, double seen)
 {
     bool changed = false;
-    if (e->device) return b->any && mps__bounds_choose_there(b, e);
+    if (e->device) return b->any && mps__bounds_choose_there(b, e, seen);
     for (int64_t k = 0; k < b->count; k++) {
         struct mps__bound *row = &b->list[k];
         const bool held = row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
@@ -188,12 +172,16 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
                              const mps__effort *effort, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
+    solvers->hint = (mps__pcg_hint){
+        .owner = b, .seen = NAN, .doubt = e->device ? &e->counts_there->lacking : NULL};
+    if (b->any && e->device) solvers->hint.look = mps__bounds_look_there;
     if (b->any && e->device)
         mps__bounds_pin_there(b, e);
     else if (b->any)
         status = pin_rows(b, e);
     if (status == MPS_OK)
         status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
+    solvers->hint.look = NULL;
     if (b->any && e->device)
         mps__bounds_free_there(b, e);
     else
@@ -206,7 +194,7 @@ static mps_status begin(mps__bounds *b, mps__ppe *e, const mps_view *s, const mp
 {
     b->count = 0;
     if (e->device) {
-        b->any = any_bounded(e, t);
+        b->any = e->bounded;
         return b->any ? mps__bounds_begin_there(b, e, s, t) : MPS_OK;
     }
     MPS__TRY(collect(b, e, s, t));
@@ -230,7 +218,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
         iterations += result->iterations;
         setup += result->setup_seconds;
         if (mps_ppe_share(&e->problem, e->p)) return mps__ranks_status(e->ghosts->ranks);
-        const bool changed = status == MPS_OK && choose(b, e);
+        const bool changed = status == MPS_OK && choose(b, e, solvers->hint.seen);
         again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }
     for (int64_t k = 0; k < b->count; k++)

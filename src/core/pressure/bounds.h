@@ -12,12 +12,12 @@ typedef struct mps__bound_rows {
     float *val, *kept; /* entries of the matrix; those before pinning, of rows that it changed */
     const double *diagonal, *p;
     double *rhs, *shift, *kept_rhs, *kept_shift;
-    double *least, *margin;        /* [Pa]; NaN without a least pressure */
-    uint8_t *bounded, *held;       /* 1: it has one; is at it */
-    uint8_t *changed;              /* 1: by pinning */
-    const double *value, *density; /* of particles */
-    const uint8_t *held_before;    /* likewise */
-    int32_t *condition;            /* likewise */
+    double *least, *margin;         /* [Pa]; NaN without a least pressure */
+    uint8_t *bounded, *held, *next; /* 1: it has one; is at it; will be */
+    uint8_t *changed;               /* 1: by pinning */
+    const double *value, *density;  /* of particles */
+    const uint8_t *held_before;     /* likewise */
+    int32_t *condition;             /* likewise */
     double nearly, speed;
 } mps__bound_rows;
 
@@ -35,7 +35,10 @@ typedef struct mps__bounds {
     int64_t pinned_capacity, mark_capacity;
     int64_t changes, changes_capacity;
     struct mps__change *change;
-    mps__bound_rows rows; /* on a device, in place of all these */
+    /* on a device, in place of all these */
+    mps__bound_rows rows;
+    mps__device *device;
+    int64_t unknowns;
 } mps__bounds;
 
 /* Pressures this near to their least, over rho U_g^2, are at it. */
@@ -63,8 +66,10 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
 /* Held rows are pinned; the equation as it was assembled. */
 void mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e);
 void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e);
-/* By the present pressures. @return whether the set has changed */
-bool mps__bounds_choose_there(const mps__bounds *b, const mps__ppe *e);
+/* By the present pressures, whether rows are pinned or not: whether the set will change, a number of the device, > 0: it will. */
+void mps__bounds_look_there(void *bounds, double *to);
+/* Change it. @param seen  what the look at these pressures has found; NaN: look now @return whether the set has changed */
+bool mps__bounds_choose_there(mps__bounds *b, const mps__ppe *e, double seen);
 /* Conditions of held rows become MPS__ROW_HELD. */
 void mps__bounds_tell_there(const mps__bounds *b, const mps__ppe *e);
 

@@ -61,22 +61,26 @@ MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
 }
 MPS__LOOP_ANY(free_rows, free_row, mps__bound_rows)
 
+/* Of the row as it was assembled, whether it is pinned now or not. */
 MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
 {
-    double sum = f->diagonal[r] * f->p[r] - f->rhs[r];
-    for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) sum += (double)f->val[p] * f->p[f->col[p]];
+    const bool kept = f->changed[r];
+    const float *val = kept ? f->kept : f->val;
+    double sum = f->diagonal[r] * f->p[r] - (kept ? f->kept_rhs[r] : f->rhs[r]);
+    for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) sum += (double)val[p] * f->p[f->col[p]];
     return sum;
 }
 
-/* The maximum: whether the set has changed. */
+/* The next set. The maximum: whether it has changed. */
 MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, double *changed)
 {
+    bool held = false;
     (void)dim;
-    if (!f->bounded[r]) return;
-    const bool held = f->held[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
-                                 : f->p[r] < f->least[r] - f->margin[r];
+    if (f->bounded[r])
+        held = f->held[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
+                          : f->p[r] < f->least[r] - f->margin[r];
     if (held != f->held[r]) changed[0] = 1;
-    f->held[r] = held;
+    f->next[r] = held;
 }
 MPS__VALUES_ANY(choose_rows, choose_row, mps__bound_rows, 0, 1)
 
@@ -97,7 +101,7 @@ static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->entries,
                  bytes = 4 * n * sizeof(double) + entries * sizeof *f->kept +
-                         3 * n * sizeof *f->held;
+                         4 * n * sizeof *f->held;
     f->least = mps__device_fit(e->device, &e->there[MPS__PPE_BOUNDS], bytes);
     if (!f->least) return MPS_E_NOMEM;
     f->margin = f->least + n;
@@ -106,7 +110,8 @@ static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
     f->kept = (float *)(void *)(f->kept_shift + n);
     f->bounded = (uint8_t *)(void *)(f->kept + entries);
     f->held = f->bounded + n;
-    f->changed = f->held + n;
+    f->next = f->held + n;
+    f->changed = f->next + n;
     return MPS_OK;
 }
 
@@ -128,6 +133,8 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
                                 .nearly = MPS__BOUNDS_NEARLY,
                                 .speed = s->velocity_scale};
     MPS__TRY(reserve(&b->rows, e));
+    b->device = e->device;
+    b->unknowns = e->n;
     run(b, e, &begin_rows);
     return MPS_OK;
 }
@@ -142,10 +149,22 @@ void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e)
     run(b, e, &free_rows);
 }
 
-bool mps__bounds_choose_there(const mps__bounds *b, const mps__ppe *e)
+void mps__bounds_look_there(void *bounds, double *to)
 {
-    double changed = 0;
-    mps__values_run(e->parallel, &choose_rows, MPS__ANY_DIM, e->n, &b->rows, NULL, &changed);
+    const mps__bounds *b = bounds;
+    mps__values_gather(b->device, &choose_rows, MPS__ANY_DIM, b->unknowns, &b->rows, to);
+}
+
+bool mps__bounds_choose_there(mps__bounds *b, const mps__ppe *e, double seen)
+{
+    uint8_t *before = b->rows.held;
+    double changed = seen;
+    if (isnan(seen)) {
+        changed = 0;
+        mps__values_run(e->parallel, &choose_rows, MPS__ANY_DIM, e->n, &b->rows, NULL, &changed);
+    }
+    b->rows.held = b->rows.next;
+    b->rows.next = before;
     return changed > 0;
 }
 

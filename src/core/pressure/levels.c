@@ -4,6 +4,7 @@
 #include "levels.h"
 #include "forest.h"
 #include "loop.h"
+#include <math.h>
 
 typedef struct forest {
     int64_t n; /* rows of this rank */
@@ -49,8 +50,8 @@ MPS_ROW bool lacks_level(const forest *f, int64_t r)
 }
 MPS__FIRST(lacking_rows, lacks_level, forest)
 
-/* Whether a component of this rank has no level. */
-static bool any_lacks_level(const mps__ppe *e)
+/* Trees of the rows of this rank. */
+static forest grow_forest(const mps__ppe *e)
 {
     const forest f = {.n = e->n,
                       .row = e->row,
@@ -61,7 +62,7 @@ static bool any_lacks_level(const mps__ppe *e)
     mps__loop_run(e->parallel, &begin_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &raise_rows, MPS__ANY_DIM, e->n, &f);
-    return mps__first_run(e->parallel, &lacking_rows, e->n, &f) < e->n;
+    return f;
 }
 
 /* In e->component: a row whose component was not looked at yet. In e->queue: behind the last row of a component. */
@@ -160,10 +161,25 @@ static int32_t balance(mps__ppe *e, const double *label)
 
 void mps__levels_look(mps__ppe *e)
 {
-    double lacking = any_lacks_level(e);
+    const forest f = grow_forest(e);
+    e->level_free = false;
+    if (e->device) {
+        mps__values_gather(e->device, &lacking_rows, MPS__ANY_DIM, e->n, &f,
+                           &e->counts_there->lacking);
+        return;
+    }
+    double lacking = mps__first_run(e->parallel, &lacking_rows, e->n, &f) < e->n;
     if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
     e->lacking = lacking > 0;
-    e->level_free = false;
+}
+
+mps_status mps__levels_wait(mps__ppe *e)
+{
+    double lacking = -INFINITY;
+    if (e->n > 0)
+        mps__device_download(e->device, &lacking, &e->counts_there->lacking, sizeof lacking);
+    e->lacking = lacking > -INFINITY;
+    return mps__device_status(e->device);
 }
 
 mps_status mps__levels_find(mps__ppe *e, const int64_t *id, int32_t *singular)

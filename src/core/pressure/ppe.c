@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
 #include "ppe.h"
-#include "levels.h"
 #include "loop.h"
 #include "scan.h"
 #include <math.h>
@@ -32,6 +31,7 @@ typedef struct assembly {
     double surface;       /* weight of pairs with one particle on the surface */
     double gain;
     const int32_t *unknown, *particle;
+    const int64_t *unknowns; /* NULL: the loop has as many rows; else how many there are */
     int64_t *row;
     int32_t *col;
     float *val;
@@ -162,42 +162,17 @@ MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
 }
 MPS__LOOP_ANY(number_rows, number_row, numbering)
 
-/* The last of sums, from where they are; 0 if a device has failed. */
-static int64_t last_of(const mps__ppe *e, const int64_t *sums, int64_t count)
-{
-    int64_t last = 0;
-    if (count > 0 && e->device)
-        mps__device_download(e->device, &last, sums + count - 1, sizeof last);
-    else if (count > 0)
-        last = sums[count - 1];
-    return e->device && e->device->failed ? 0 : last;
-}
-
-static mps_status find_unknowns(mps__ppe *e, const mps_view *s, assembly *a)
-{
-    const mps_parallel *parallel = e->parallel;
-    numbering f = {.terms = *a};
-    f.number = take(e, MPS__PPE_VALUES, mps__scan_room(s->n), sizeof *f.number);
-    if (!f.number) return MPS_E_NOMEM;
-    mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
-    mps__scan(parallel, f.number, s->n);
-    const int64_t all = last_of(e, f.number, s->n);
-    e->n = f.rows = all % OTHERS;
-    e->columns = e->n + all / OTHERS;
-    MPS__TRY(mps__ppe_reserve_rows(e, s->dim));
-    a->unknown = f.unknown = e->unknown;
-    a->particle = f.particle = e->particle;
-    mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
-    return MPS_OK;
-}
-
 /* Entries of row r beside the diagonal. */
 MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 {
     const mps_stencil *pairs = &a->pairs;
-    const int64_t i = a->particle[r];
     int64_t count = 0;
     (void)dim;
+    if (a->unknowns && r >= *a->unknowns) {
+        a->row[r + 1] = 0;
+        return;
+    }
+    const int64_t i = a->particle[r];
     for (int64_t k = pairs->begin[i]; k < pairs->end[i]; k++) {
         const int64_t j = pairs->col[k];
         count += a->unknown[j] >= 0 && (a->kind[i] == MPS_FLUID || pair_factor(a, i, j) != 0);
@@ -207,13 +182,114 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 }
 MPS__LOOP_ANY(count_rows, count_row, assembly)
 
-/* Row starts, and the entries of all. */
-static void start_rows(mps__ppe *e, const assembly *a)
+/* Unknowns, row starts and the entries of all, on the host. */
+static mps_status count_here(mps__ppe *e, const mps_view *s, assembly *a)
 {
-    if (!e->device) e->row[0] = 0; /* also where there is no row */
-    mps__loop_run(e->parallel, &count_rows, a->pairs.dim, e->n, a);
-    mps__scan(e->parallel, e->row + 1, e->n);
-    e->entries = last_of(e, e->row + 1, e->n);
+    const mps_parallel *parallel = e->parallel;
+    numbering f = {.terms = *a};
+    f.number = take(e, MPS__PPE_VALUES, mps__scan_room(s->n), sizeof *f.number);
+    if (!f.number) return MPS_E_NOMEM;
+    mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
+    mps__scan(parallel, f.number, s->n);
+    const int64_t all = s->n > 0 ? f.number[s->n - 1] : 0;
+    e->n = f.rows = all % OTHERS;
+    e->columns = e->n + all / OTHERS;
+    MPS__TRY(mps__ppe_reserve_rows(e, s->dim));
+    a->unknown = f.unknown = e->unknown;
+    a->particle = f.particle = e->particle;
+    a->row = e->row;
+    mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
+    e->row[0] = 0; /* also where there is no row */
+    mps__loop_run(parallel, &count_rows, s->dim, e->n, a);
+    mps__scan(parallel, e->row + 1, e->n);
+    e->entries = e->n > 0 ? e->row[e->n] : 0;
+    return MPS_OK;
+}
+
+/* ---- the same on a device: the host waits once for all that it has to know ---- */
+
+MPS_ROW bool has_least(const assembly *a, int64_t i)
+{
+    return a->condition[i] == MPS_ROW_LEAST && is_unknown(a, i);
+}
+MPS__FIRST(bounded_rows, has_least, assembly)
+
+/* What is counted before there are arrays of the right size. */
+typedef struct counting {
+    int64_t particles, rows;
+    const int64_t *number, *row;
+    const int32_t *unknown, *particle;
+    int64_t *to_row;
+    int32_t *to_unknown, *to_particle;
+    mps__ppe_counts *found;
+} counting;
+
+MPS_ROW void tell_row(const int dim, const counting *f, int64_t i)
+{
+    (void)dim, (void)i;
+    f->found->unknowns = f->number[f->particles - 1];
+    f->found->entries = f->row[f->particles];
+}
+MPS__LOOP_ANY(tell_rows, tell_row, counting)
+
+/* To their places among the arrays of the rows. */
+MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
+{
+    (void)dim;
+    if (i <= f->rows) f->to_row[i] = f->row[i];
+    if (i < f->rows) f->to_particle[i] = f->particle[i];
+    if (i < f->particles) f->to_unknown[i] = f->unknown[i];
+}
+MPS__LOOP_ANY(settle_rows, settle_row, counting)
+
+/* Room for as many rows as there are particles. */
+static mps_status reserve_counting(mps__ppe *e, numbering *f, assembly *a, counting *c)
+{
+    const int64_t n = e->particles, sums = mps__scan_room(n);
+    f->number = take(e, MPS__PPE_VALUES, 2 * sums + 1 + n, sizeof *f->number);
+    e->counts_there = c->found = take(e, MPS__PPE_COUNTS, 1, sizeof *c->found);
+    if (!f->number || !c->found) return MPS_E_NOMEM;
+    a->row = f->number + sums;
+    f->unknown = (int32_t *)(void *)(a->row + 1 + sums);
+    f->particle = f->unknown + n;
+    a->unknown = f->unknown;
+    a->particle = f->particle;
+    a->unknowns = n > 0 ? f->number + n - 1 : f->number;
+    c->particles = n;
+    c->number = f->number;
+    c->row = a->row;
+    c->unknown = f->unknown;
+    c->particle = f->particle;
+    return MPS_OK;
+}
+
+static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
+{
+    const mps_parallel *parallel = e->parallel;
+    numbering f = {.terms = *a};
+    counting c = {0};
+    mps__ppe_counts found = {.bounded = -INFINITY};
+    MPS__TRY(reserve_counting(e, &f, a, &c));
+    mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
+    mps__scan(parallel, f.number, s->n);
+    mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
+    mps__loop_run(parallel, &count_rows, s->dim, s->n, a);
+    mps__scan(parallel, a->row + 1, s->n);
+    mps__values_gather(e->device, &bounded_rows, MPS__ANY_DIM, s->n, a, &c.found->bounded);
+    if (s->n > 0) {
+        mps__loop_run(parallel, &tell_rows, MPS__ANY_DIM, 1, &c);
+        mps__device_download(e->device, &found, c.found, offsetof(mps__ppe_counts, lacking));
+    }
+    MPS__TRY(mps__device_status(e->device));
+    e->n = e->columns = c.rows = found.unknowns;
+    e->entries = found.entries;
+    e->bounded = found.bounded > -INFINITY;
+    MPS__TRY(mps__ppe_reserve_rows(e, s->dim));
+    a->unknown = c.to_unknown = e->unknown;
+    a->particle = c.to_particle = e->particle;
+    c.to_row = e->row;
+    mps__loop_run(parallel, &settle_rows, MPS__ANY_DIM, s->n > 0 ? s->n + 1 : 0, &c);
+    return MPS_OK;
 }
 
 /* Columns in the order of their particles: far rows are two sorted runs, for which insertion is short work. */
@@ -340,93 +416,10 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
     e->parallel = a.pairs.parallel;
     e->device = mps__device_of(e->parallel);
     e->particles = s->n;
-    MPS__TRY(find_unknowns(e, s, &a));
+    MPS__TRY(e->device ? count_there(e, s, &a) : count_here(e, s, &a));
     MPS__TRY(reserve_extras(e, s, &a, t->linear));
-    see_rows(&a, e);
-    start_rows(e, &a);
     MPS__TRY(mps__ppe_reserve_entries(e));
     see_rows(&a, e);
     mps__loop_run(e->parallel, &fill_rows, s->dim, e->n, &a);
     return e->device ? mps__device_status(e->device) : MPS_OK;
-}
-
-/* ---- what rows are not made of ---- */
-
-/* Also of columns of other ranks. */
-typedef struct notes {
-    const double *place, *pressure; /* of particles */
-    const int32_t *particle;
-    int64_t rows;
-    double dt2;
-    double *x, *p, *weight;
-} notes;
-
-MPS_ROW void note_row(const int dim, const notes *a, int64_t r)
-{
-    const int64_t i = a->particle[r];
-    a->p[r] = a->pressure[i];
-    for (int d = 0; d < dim; d++) a->x[r * dim + d] = a->place[i * dim + d];
-    if (r < a->rows) a->weight[r] = a->dt2;
-}
-MPS__LOOP(note_rows, note_row, notes)
-
-void mps__ppe_point(mps_ppe_problem *problem, const mps__ppe *e)
-{
-    problem->row = e->row;
-    problem->col = e->col;
-    problem->val = e->val;
-    problem->diagonal = e->diagonal;
-    problem->rhs = e->rhs;
-    problem->shift = e->shift;
-    problem->weight = e->weight;
-    problem->x = e->x;
-    problem->gas = e->gas;
-    problem->law = e->law;
-    problem->parallel = e->device ? &e->device->parallel : e->parallel;
-}
-
-mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
-{
-    mps__loop_run(
-        e->parallel, &note_rows, s->dim, e->columns,
-        &(notes){s->x, t->pressure, e->particle, e->n, s->dt * s->dt, e->x, e->p, e->weight});
-    MPS__TRY(mps__ppe_ranks_set(e));
-    e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
-                                   .dim = s->dim,
-                                   .n = e->n,
-                                   .dp = s->dp,
-                                   .ranks = e->ranks.ranks > 1 ? &e->ranks : NULL};
-    mps__ppe_point(&e->problem, e);
-    mps__levels_look(e);
-    if (e->device) return mps__device_status(e->device);
-    return e->lacking ? mps__ppe_close(e, s) : MPS_OK;
-}
-
-mps_status mps__ppe_close(mps__ppe *e, const mps_view *s)
-{
-    MPS__TRY(mps__levels_find(e, s->id, &e->problem.components));
-    e->problem.component = e->problem.components > 0 ? e->component : NULL;
-    return MPS_OK;
-}
-
-typedef struct scatter {
-    const int32_t *unknown, *condition;
-    const double *solution, *value;
-    double *p;
-} scatter;
-
-MPS_ROW void scatter_row(const int dim, const scatter *c, int64_t i)
-{
-    (void)dim;
-    if (c->unknown[i] >= 0)
-        c->p[i] = c->solution[c->unknown[i]];
-    else
-        c->p[i] = c->condition[i] == MPS_ROW_FIXED ? c->value[i] : 0;
-}
-MPS__LOOP_ANY(scatter_rows, scatter_row, scatter)
-
-void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p)
-{
-    mps__loop_run(e->parallel, &scatter_rows, s->dim, s->n,
-                  &(scatter){e->unknown, t->condition, e->p, t->value, p});
 }

@@ -24,7 +24,7 @@ typedef struct mps__ppe_terms {
     bool linear; /* no row has the law of a gas */
 } mps__ppe_terms;
 
-/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last two. */
+/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last three. */
 enum {
     MPS__PPE_VALUES,
     MPS__PPE_COLUMNS,
@@ -34,8 +34,16 @@ enum {
     MPS__PPE_NUMBERS,
     MPS__PPE_MOMENTS,
     MPS__PPE_BOUNDS,
+    MPS__PPE_COUNTS,
     MPS__PPE_BLOCKS
 };
+
+/* What a device has counted of an equation. */
+typedef struct mps__ppe_counts {
+    int64_t unknowns, entries;
+    double bounded,
+        lacking; /* above -INFINITY: a row has a least pressure, a component lacks a level */
+} mps__ppe_counts;
 
 /* The equation is assembled where the loops over it run. On a device all of its arrays are there, until it comes to the host. */
 typedef struct mps__ppe {
@@ -59,6 +67,9 @@ typedef struct mps__ppe {
     int64_t columns; /* and those of other ranks that they look at, behind them */
     int64_t entries; /* of the matrix */
     int64_t particles;
+    /* on a device: what it has counted, and whether a row has a least pressure */
+    mps__ppe_counts *counts_there;
+    bool bounded;
     int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
     int32_t *particle; /* [columns] particle of a row or a column */
     int64_t *row;      /* [n+1] CSR beside the diagonal */
@@ -93,7 +104,8 @@ void mps__ppe_free(mps__ppe *e);
 /* Build a row for every unknown. MPS_E_NOMEM, MPS_E_PLUGIN: of a device */
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Then what an unknown is beside its row, with the old pressures as the first guess. On the host e->spare and e->spare_x take it. Where a
- * component lacks a level, an equation on a device has to come to the host for mps__ppe_close(). */
+ * component lacks a level, an equation on a device has to come to the host for mps__ppe_close(): a solver there looks for it before it begins
+ * (mps__pcg_hint), others have to wait (levels.h). */
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Make an equation that lacks a level solvable; on the host. */
 mps_status mps__ppe_close(mps__ppe *e, const mps_view *s);

@@ -295,10 +295,12 @@ void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p
         pc.setup = setup_unless_ready;
         pc.apply = apply_in_use;
     }
+    s->hint.ready = (s->again && s->ready) || (s->pc && s->pc->create == spare->create);
     run_solver(s, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
     const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
     if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
     if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
+    s->hint.ready = true;
     run_solver(s, problem, spare, s->spare_self, p, &second);
     mps__log(s->context, MPS_LOG_WARNING,
              "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
@@ -330,6 +332,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         MPS__TRY(mps__solvers_solve_there(s, &limited, p, result));
     else
         mps__solvers_run(s, &limited, p, result);
+    if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
     /* of a residual that is finite all pressures are */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)

@@ -65,6 +65,7 @@ mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, d
 {
     mps_ppe_problem there;
     double *q;
+    mps__pcg_expect(s->use_self, &s->hint);
     if (mps__device_of(e->parallel)) {
         mps__solvers_run(s, e, p, result);
         return mps__device_status(s->device);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pressure part of a step: the equation, its solution, and what is told about it. */
 #include "step.h"
+#include "levels.h"
 #include "loop.h"
 #include <mps/couple.h>
 
@@ -133,27 +134,12 @@ const mps__pass mps__pass_matrix = {.name = "matrix",
                                     .uses = matrix_uses,
                                     .run = fill_matrix};
 
-/* On the host. */
-static mps_status close_levels(mps_stage *s)
-{
-    mps__ppe *e = &mps__step_of(s)->w->ppe;
-    const mps_view *there = mps__host_begin_serial(s);
-    mps_status status = mps__ppe_come(e);
-    if (status == MPS_OK) status = mps__ppe_close(e, s->view);
-    mps__host_end_serial(s, there);
-    return status;
-}
-
 static mps_status note_unknowns(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__ppe *e = &q->w->ppe;
     mps__ppe_terms terms = q->terms;
     terms.pressure = s->data[0];
-    MPS__TRY(mps__ppe_note(e, s->view, &terms));
-    if (e->device && e->lacking) MPS__TRY(close_levels(s));
-    note_level(q);
-    return MPS_OK;
+    return mps__ppe_note(&q->w->ppe, s->view, &terms);
 }
 
 static const mps_use unknown_uses[] = {{"pressure", MPS_USE_READ},
@@ -197,6 +183,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     w->bounds.solves = 0;
     if (mps__ppe_rows(&w->ppe) > 0)
         status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
+    if (w->solvers.hint.refused) return MPS_OK; /* not solved yet */
     if (status < 0) return tell_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
     if (q->not_converged)
@@ -246,6 +233,40 @@ static mps_status solve_here(mps_stage *s)
     return status == MPS_OK ? mps__ppe_go(&w->ppe) : status;
 }
 
+/* Components without a level: the equation comes to the host. */
+static mps_status close_levels(mps_stage *s)
+{
+    mps__ppe *e = &mps__step_of(s)->w->ppe;
+    const mps_view *there = mps__host_begin_serial(s);
+    mps_status status = mps__ppe_come(e);
+    if (status == MPS_OK) status = mps__ppe_close(e, s->view);
+    mps__host_end_serial(s, there);
+    return status;
+}
+
+/* Whether an equation on a device has such components is found by the solver there, before it begins. */
+static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
+{
+    mps__world *w = mps__step_of(s)->w;
+    note_level(mps__step_of(s));
+    const mps_status status = solve_equation(s, terms);
+    if (!w->solvers.hint.refused) return status;
+    w->solvers.hint.refused = false;
+    MPS__TRY(close_levels(s));
+    note_level(mps__step_of(s));
+    return solve_here(s);
+}
+
+/* The host solves what was assembled there. */
+static mps_status solve_apart(mps_stage *s)
+{
+    mps__ppe *e = &mps__step_of(s)->w->ppe;
+    if (e->device) MPS__TRY(mps__levels_wait(e));
+    if (e->device && e->lacking) MPS__TRY(close_levels(s));
+    note_level(mps__step_of(s));
+    return solve_here(s);
+}
+
 static mps_status solve(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -255,7 +276,7 @@ static mps_status solve(mps_stage *s)
     terms.value = s->data[LEAST];
     terms.condition = s->data[CONDITIONS];
     solvers->device = mps__twins_device(&q->w->host.twins);
-    const mps_status status = stays(q) ? solve_equation(s, &terms) : solve_here(s);
+    const mps_status status = stays(q) ? solve_in_place(s, &terms) : solve_apart(s);
     solvers->device = NULL;
     return status;
 }

@@ -1,0 +1,271 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Passes of conjugate gradients on a device, as krylov.c has them: the first guess and its residual, runs, the corrections that they find. What decides
+ * stays there; the host waits for all of it at once, before the set-up of a preconditioner and behind iterations. */
+#include "cg_room.h"
+
+MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+{
+    (void)dim;
+    values[0] = f->rhs[i] * f->rhs[i];
+    if (0 * f->solution[i] != 0) values[1] = 1;
+    if (-f->diagonal[i] > values[2]) values[2] = -f->diagonal[i];
+}
+MPS__VALUES_ANY(beginnings, begin_row, mps__cg_recurrence, 1, 2)
+
+/* A guess with NaN or infinity becomes zero; of zeros the solution is known. */
+MPS_ROW void guess(const int dim, const mps__cg_recurrence *f, int64_t i)
+{
+    (void)dim;
+    if (f->begun->poison > 0 || mps_exact_value(&f->begun->rhs_squares) == 0) f->solution[i] = 0;
+    f->start[i] = f->solution[i];
+}
+MPS__LOOP_ANY(guesses, guess, mps__cg_recurrence)
+
+/* As mps_ppe_check() does it. */
+MPS_ROW void check_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+{
+    const double *p = f->solution;
+    double s = f->diagonal[i] * p[i], *maxima = values + 2;
+    (void)dim;
+    if (f->n->over) return;
+    for (int64_t k = f->row[i]; k < f->row[i + 1]; k++) s += (double)f->val[k] * p[f->col[k]];
+    const double r = f->rhs[i] - s, d = f->weight ? fabs(r * f->weight[i]) : 0;
+    f->r[i] = r;
+    values[0] = r * r;
+    values[1] = f->rhs[i] * f->rhs[i];
+    if (d > maxima[0]) maxima[0] = d;
+    if (0 * d != 0) maxima[1] = 1;
+}
+MPS__VALUES_ANY(checks, check_row, mps__cg_recurrence, 2, 2)
+
+MPS_ROW void poison_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+{
+    (void)dim;
+    if (0 * f->x[i] != 0) values[0] = 1;
+}
+MPS__VALUES_ANY(poisons, poison_row, mps__cg_recurrence, 0, 1)
+
+MPS_ROW void correct(const int dim, const mps__cg_recurrence *f, int64_t i)
+{
+    (void)dim;
+    if (!f->n->over) f->solution[i] += *f->poison > 0 ? 0 : f->x[i];
+}
+MPS__LOOP_ANY(corrections, correct, mps__cg_recurrence)
+
+MPS_ROW void tell(const int dim, const mps__cg_recurrence *f, int64_t i)
+{
+    (void)dim, (void)i;
+    if (f->n->over) return;
+    mps__cg_note_residual(f, NOW);
+    f->n->over = 1;
+}
+MPS__LOOP_ANY(tellings, tell, mps__cg_recurrence)
+
+size_t mps__cg_bytes(void)
+{
+    return sizeof(mps__cg_room);
+}
+
+/* ---- the queue ---- */
+
+/* The guess, its residual, and whether a run begins. */
+static void queue_beginning(mps__cg_solving *s)
+{
+    mps__device_clear(s->device, s->there, sizeof *s->there);
+    mps__cg_queue_values(s, &beginnings, &s->there->begun);
+    mps__cg_queue_rows(s, &guesses, s->n);
+    mps__cg_queue_values(s, &checks, &s->there->checked);
+    mps__cg_queue_decision(s, WHETHER_TO_BEGIN);
+}
+
+/* What follows a run once it has stopped: the correction and the residual that it leaves. */
+static void queue_end(mps__cg_solving *s)
+{
+    s->device->unless = &s->there->numbers.over;
+    mps__cg_queue_values(s, &poisons, &s->there->poison);
+    mps__cg_queue_rows(s, &corrections, s->n);
+    mps__cg_queue_values(s, &checks, &s->there->checked);
+    mps__cg_queue_rows(s, &tellings, 1);
+    s->device->unless = NULL;
+}
+
+/* Wait for the numbers, and for what the caller wants to know of the pressures. */
+static mps__cg_numbers fetch(const mps__cg_solving *s)
+{
+    mps__pcg_hint *hint = s->c->hint;
+    mps__cg_numbers n = {.stop = BROKEN};
+    if (hint && hint->look) hint->look(hint->owner, &s->there->numbers.seen);
+    mps__device_download(s->device, &n, &s->there->numbers, sizeof n);
+    if (hint) hint->seen = hint->look ? n.seen : NAN;
+    if (hint) hint->refused = n.stop == REFUSED;
+    return s->device->failed ? (mps__cg_numbers){.stop = BROKEN} : n;
+}
+
+/* A run from x = 0, which may have stopped before it begins. `reason`: of a failure of the host, which ends it too. */
+static mps__cg_numbers run(mps__cg_solving *s, int *reason)
+{
+    mps__cg_numbers n = {.stop = GOING};
+    mps__vectors_clear(s->parallel, s->n, s->f.x);
+    for (int64_t queued = 0; n.stop == GOING && queued < s->f.most && !*reason;) {
+        s->device->unless = &s->there->numbers.stop;
+        for (int k = 0; k < MPS__CG_AT_ONCE && queued < s->f.most && !*reason; k++, queued++)
+            *reason = mps__cg_queue_iteration(s);
+        s->device->unless = NULL;
+        if (*reason) mps__device_clear(s->device, &s->there->numbers.over, sizeof n.over);
+        queue_end(s);
+        n = fetch(s);
+    }
+    return n;
+}
+
+/* ---- a solution ---- */
+
+/* Why a run has failed; 0: it has not. */
+static int failure_of(const mps__cg_solving *s, const mps__cg_numbers *n)
+{
+    static const int reasons[] = {[POISONED] = MPS_PPE_NAN,
+                                  [NEGATIVE] = MPS_PPE_INDEFINITE,
+                                  [BROKEN] = MPS_PPE_BREAKDOWN,
+                                  [CURVED] = MPS_PPE_INDEFINITE};
+    if (n->stop == CURVED && !mps__curvature_negative(s->c->problem, s->c->array[1], n->curvature))
+        return MPS_PPE_BREAKDOWN;
+    return n->stop <= CURVED ? reasons[n->stop] : 0;
+}
+
+/* Of a guess that leads nowhere zeros are the next one. */
+static void queue_zeros(mps__cg_solving *s)
+{
+    mps__vectors_clear(s->parallel, s->n, s->f.solution);
+    queue_beginning(s);
+}
+
+static void set_result(mps_ppe_result *result, const mps__cg_numbers *n, int of)
+{
+    result->residual = n->residual[of];
+    result->divergence = n->divergence[of];
+}
+
+static void note_guess(mps__cg_solving *s, mps_ppe_result *result, const mps__cg_numbers *n)
+{
+    set_result(result, n, GUESS);
+    s->excess = mps__result_excess(s->c->problem, result);
+}
+
+/* What keeps a run from beginning, a reason; < 0: nothing does. */
+static int obstacle_of(const mps__cg_numbers *n)
+{
+    if (n->stop == SOLVED) return MPS_PPE_CONVERGED;
+    if (n->stop == NEGATIVE_ROW) return MPS_PPE_INDEFINITE;
+    return n->stop == NOWHERE || n->stop == REFUSED ? MPS_PPE_NAN : -1;
+}
+
+/* Wait for what the beginning has found. Returns a reason that ends the solution, < 0: none. */
+static int look_at_beginning(mps__cg_solving *s, mps_ppe_result *result)
+{
+    mps__cg_numbers n = fetch(s);
+    if (n.stop == NOWHERE) {
+        queue_zeros(s);
+        n = fetch(s);
+    }
+    note_guess(s, result, &n);
+    return s->device->failed ? MPS_PPE_BREAKDOWN : obstacle_of(&n);
+}
+
+/* The preconditioner. Returns 0 or a reason of failure. */
+static int set_up(const mps__cg *c, mps_ppe_result *result)
+{
+    if (!c->pc) return 0;
+    const double t = mps__seconds();
+    const int reason = c->pc->setup(c->pc_self, c->problem);
+    result->setup_seconds = mps__seconds() - t;
+    return reason;
+}
+
+/* The first run, where the host has not looked yet whether it begins. */
+static mps__cg_numbers run_at_once(mps__cg_solving *s, mps_ppe_result *result, int *reason)
+{
+    mps__cg_numbers n = run(s, reason);
+    if (n.stop == NOWHERE) {
+        queue_zeros(s);
+        n = run(s, reason);
+    }
+    note_guess(s, result, &n);
+    return n;
+}
+
+/* Runs go on until the true residual is small enough. `known`: the first one begins. */
+static int passes(mps__cg_solving *s, mps_ppe_result *result, bool known)
+{
+    const mps_ppe_problem *problem = s->c->problem;
+    mps__progress progress = {0};
+    for (;; known = true) {
+        int reason = 0;
+        s->f.most = problem->max_iterations - result->iterations;
+        const mps__cg_numbers n = known ? run(s, &reason) : run_at_once(s, result, &reason);
+        if (s->device->failed) return MPS_PPE_BREAKDOWN;
+        if (!known && obstacle_of(&n) >= 0) return obstacle_of(&n);
+        if (progress.passes == 0) progress.best = s->excess;
+        result->iterations += (int32_t)n.iterations;
+        set_result(result, &n, NOW);
+        if (!reason) reason = failure_of(s, &n);
+        reason = mps__progress_after(&progress, mps__result_excess(problem, result), reason);
+        if (reason >= 0) return reason;
+        if (result->iterations >= problem->max_iterations) return MPS_PPE_MAX_ITERATIONS;
+        mps__device_clear(s->device, &s->there->numbers.stop, sizeof n.stop);
+        mps__cg_queue_decision(s, WHETHER_TO_GO_ON);
+    }
+}
+
+static mps__cg_solving begin(const mps__cg *c)
+{
+    const mps_ppe_problem *e = c->problem;
+    mps__cg_room *there = c->room;
+    return (mps__cg_solving){.c = c,
+                             .device = mps__device_of(e->parallel),
+                             .parallel = e->parallel,
+                             .n = e->n,
+                             .there = there,
+                             .f = {.n = &there->numbers,
+                                   .begun = &there->begun,
+                                   .checked = &there->checked,
+                                   .got = &there->got,
+                                   .poison = &there->poison,
+                                   .doubt = c->hint ? c->hint->doubt : NULL,
+                                   .row = e->row,
+                                   .col = e->col,
+                                   .val = e->val,
+                                   .diagonal = e->diagonal,
+                                   .rhs = e->rhs,
+                                   .weight = e->weight,
+                                   .solution = c->p,
+                                   .start = c->start,
+                                   .x = c->x,
+                                   .r = c->r,
+                                   .p = c->array[1],
+                                   .z = c->pc ? c->array[0] : c->r,
+                                   .product = c->array[2],
+                                   .tolerance = e->tolerance,
+                                   .divergence_limit = e->divergence,
+                                   .most = e->max_iterations,
+                                   .preconditioned = c->pc != NULL}};
+}
+
+int mps__cg_solve(const mps__cg *c, mps_ppe_result *result)
+{
+    const mps_ppe_problem *problem = c->problem;
+    const bool ready = !c->pc || (c->hint && c->hint->ready);
+    mps__cg_solving s = begin(c);
+    queue_beginning(&s);
+    int reason = ready ? -1 : look_at_beginning(&s, result);
+    if (reason >= 0) return reason;
+    reason = set_up(c, result);
+    if (reason) return reason;
+    reason = passes(&s, result, !ready);
+    const bool failed = reason != MPS_PPE_CONVERGED && reason != MPS_PPE_MAX_ITERATIONS;
+    if (failed || !(mps__result_excess(problem, result) <= s.excess)) {
+        mps__vectors_copy(s.parallel, s.n, c->start, c->p);
+        mps_ppe_check(problem, c->p, c->r, result);
+        if (c->hint) c->hint->seen = NAN;
+    }
+    return reason;
+}

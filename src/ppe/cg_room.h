@@ -1,0 +1,128 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a run of conjugate gradients on a device (cg.c) and what stands about it (cg_passes.c) work on. */
+#ifndef MPS_PPE_CG_ROOM_H
+#define MPS_PPE_CG_ROOM_H
+
+#include "cg.h"
+#include "kernels.h"
+#include "loop.h"
+#include <math.h>
+
+/* Why a run has stopped; from NOWHERE on what keeps one from beginning: the guess has no finite residual, it is the solution, a row has a negative
+ * diagonal, the hint refuses. */
+enum {
+    GOING,
+    REACHED,
+    USED_UP,
+    POISONED,
+    NEGATIVE,
+    BROKEN,
+    CURVED,
+    NOWHERE,
+    SOLVED,
+    NEGATIVE_ROW,
+    REFUSED
+};
+
+/* Of a true residual: squares of it and of the right side; its largest element by the weights, and 1 if one is NaN or infinite. */
+typedef struct mps__cg_checked {
+    mps_exact squares, rhs_squares;
+    double largest, poison;
+} mps__cg_checked;
+
+/* Of the right side and the first guess. */
+typedef struct mps__cg_begun {
+    mps_exact rhs_squares;
+    double poison;   /* 1: the guess has NaN or infinity */
+    double negative; /* largest of the negative diagonal */
+} mps__cg_begun;
+
+/* On the device; a wait brings them to the host. */
+typedef struct mps__cg_numbers {
+    int64_t stop; /* `unless` of the launches of a run */
+    /* `unless` of the launches behind it: not 0 while it goes on, if it did not begin, and once they have run */
+    int64_t over;
+    int64_t iterations;
+    double rz; /* r'z */
+    double alpha, beta;
+    double curvature; /* p'Ap */
+    /* the run stops where the residual is at most `delta` times above its limits */
+    double norm_limit, delta;
+    double residual[2], divergence[2]; /* of the first guess, and now */
+    double seen;                       /* of the hint */
+} mps__cg_numbers;
+
+enum { GUESS, NOW };
+
+typedef struct mps__cg_room {
+    mps__cg_numbers numbers;
+    mps__cg_begun begun;
+    mps__cg_checked checked;
+    mps__gathered got;
+    double poison; /* 1: the correction has NaN or infinity */
+} mps__cg_room;
+
+/* What a loop works on; each uses its own. */
+typedef struct mps__cg_recurrence {
+    mps__cg_numbers *n;
+    const mps__cg_begun *begun;
+    const mps__cg_checked *checked;
+    const mps__gathered *got;
+    const double *poison, *doubt;
+    /* the equation */
+    const int64_t *row;
+    const int32_t *col;
+    const float *val;
+    const double *diagonal, *rhs, *weight; /* the last of these NULL: none */
+    double *solution, *start;
+    double *x, *r, *p;
+    const double *z, *product;
+    double tolerance, divergence_limit;
+    int64_t most;
+    int32_t decision;
+    bool preconditioned;
+} mps__cg_recurrence;
+
+/* What is decided. */
+enum { WHETHER_TO_BEGIN, WHETHER_TO_GO_ON, WHETHER_TO_STOP, DIRECTION, STEP };
+
+/* One solution in progress. */
+typedef struct mps__cg_solving {
+    const mps__cg *c;
+    mps__device *device;
+    const mps_parallel *parallel;
+    int64_t n;
+    mps__cg_room *there;
+    mps__cg_recurrence f;
+    double excess; /* of the guess */
+} mps__cg_solving;
+
+static inline void mps__cg_queue_rows(const mps__cg_solving *s, const mps__loop *loop, int64_t n)
+{
+    mps__loop_run(s->parallel, loop, MPS__ANY_DIM, n, &s->f);
+}
+
+static inline void mps__cg_queue_values(const mps__cg_solving *s, const mps__values *values,
+                                        void *to)
+{
+    mps__values_gather(s->device, values, MPS__ANY_DIM, s->n, &s->f, to);
+}
+
+/* As mps_ppe_check() says, of the residual that was checked. Returns the excess. */
+MPS_ROW double mps__cg_note_residual(const mps__cg_recurrence *f, int of)
+{
+    const mps__cg_checked *c = f->checked;
+    const double squares = mps_exact_value(&c->squares),
+                 rhs_squares = mps_exact_value(&c->rhs_squares);
+    f->n->residual[of] = sqrt(squares) / (rhs_squares > 0 ? sqrt(rhs_squares) : 1);
+    f->n->divergence[of] = c->poison > 0 ? NAN : c->largest > 0 ? c->largest : 0;
+    return mps__excess_of(f->n->residual[of], f->tolerance, f->n->divergence[of],
+                          f->divergence_limit);
+}
+
+/* Queue what decides by one number. */
+void mps__cg_queue_decision(mps__cg_solving *s, int32_t decision);
+/* Queue an iteration. Returns 0 or a reason of failure of the host. */
+int mps__cg_queue_iteration(mps__cg_solving *s);
+
+#endif
