@@ -16,6 +16,70 @@ static void solutions(void **state)
     assert_int_equal(s.rooms, 0);
 }
 
+/* ---- grids ---- */
+
+/* Some particles lie away from all others, in cells without neighbours, which have no coarser one. */
+static void scattered(kit_system *s)
+{
+    for (int64_t i = 0; i < s->problem.n; i += 53)
+        for (int a = 0; a < s->problem.dim; a++)
+            s->x[i * s->problem.dim + a] += s->problem.dp * (double)(i % 1009 + 200) *
+                                            (a == 0 ? -0.7 : 1.3);
+}
+
+/* No order of the particles helps to find cells. */
+static void shuffled(kit_system *s)
+{
+    const int dim = s->problem.dim;
+    const int64_t n = s->problem.n;
+    for (int64_t i = 0; i < n; i++)
+        for (int a = 0; a < dim; a++) {
+            const int64_t other = (i * 7919 + 13) % n * dim + a;
+            const double x = s->x[i * dim + a];
+            s->x[i * dim + a] = s->x[other];
+            s->x[other] = x;
+        }
+}
+
+/* Several grids of one density and two, with and without cells that stand alone: whatever the set-up makes of places, both sides make the same. */
+static void grids(void **state)
+{
+    static const kit_lattice lattices[] = {
+        {.dim = 2, .nx = 120, .ny = 80, .nz = 1, .boxes = 2, .open = 2, .re = 3.1, .contrast = 1},
+        {.dim = 2, .nx = 90, .ny = 80, .nz = 1, .boxes = 2, .open = 2, .re = 3.1, .contrast = 800},
+        {.dim = 3, .nx = 20, .ny = 18, .nz = 16, .boxes = 1, .open = 1, .re = 2.1, .contrast = 1},
+        {.dim = 3,
+         .nx = 16,
+         .ny = 18,
+         .nz = 16,
+         .boxes = 1,
+         .open = 1,
+         .re = 2.1,
+         .contrast = 800}};
+    static const solution cases[] = {{"grids", MPS_PPE_CONVERGED, 2000, 0, 1e-6, NULL},
+                                     {"scattered", -1, 40, 0, 1e-6, scattered},
+                                     {"shuffled", -1, 40, 0, 1e-6, shuffled}};
+    mps_sim *sim = new_sim(2, 0.1);
+    shadow s;
+    (void)state;
+    shadow_heap(sim);
+    shadow_attach(&s, sim);
+    assert_int_equal(mps_solver_use(sim, "sundials.pcg", "auxgrid"), MPS_OK);
+    for (size_t l = 0; l < sizeof lattices / sizeof lattices[0]; l++)
+        for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
+            const int32_t made = shadow_seen(&s, "auxgrid_coarse.c", "merge_rows"),
+                          wired = shadow_seen(&s, "auxgrid_wires.c", "wire_rows");
+            compare_solution(sim, &lattices[l], &cases[c], "auxgrid");
+            const bool coarse = shadow_seen(&s, "auxgrid_coarse.c", "merge_rows") > made,
+                       wires = shadow_seen(&s, "auxgrid_wires.c", "wire_rows") > wired;
+            if (!coarse || wires != (lattices[l].contrast > 1))
+                fail_msg("lattice %d, %s: coarser grids %d, wires %d", (int)l, cases[c].what,
+                         coarse, wires);
+        }
+    mps_sim_destroy(sim);
+    assert_int_equal(s.rooms, 0);
+}
+
 /* ---- what an iteration costs ---- */
 
 /* Of eight iterations: those behind them, which find the correction and its residual where the run has stopped. */
@@ -94,6 +158,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions),
+        cmocka_unit_test(grids),
         cmocka_unit_test(costs),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
