@@ -364,17 +364,17 @@ static inline void mps_view_tank(const mps_view *v, const double *x, double *pla
     const mps_tank_pose *k = &v->tank;
     const double *R = k->rotation, *N = k->next_rotation;
     double r[3] = {0, 0, 0}, arm[3] = {0, 0, 0}, turned[3];
-    for (int d = 0; d < v->dim; d++) r[d] = x[d] - k->centre[d] - k->shift[d];
-    for (int d = 0; d < v->dim; d++) {
+    for (int d = 0; d < 3 && d < v->dim; d++) r[d] = x[d] - k->centre[d] - k->shift[d];
+    for (int d = 0; d < 3 && d < v->dim; d++) {
         const double X = k->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
         arm[d] = X - k->centre[d];
         if (place) place[d] = X;
     }
     if (!velocity) return;
-    if (!k->has_next) N = R;
     for (int d = 0; d < 3; d++)
-        turned[d] = N[3 * d] * arm[0] + N[3 * d + 1] * arm[1] + N[3 * d + 2] * arm[2];
-    for (int d = 0; d < v->dim; d++) {
+        turned[d] = k->has_next ? N[3 * d] * arm[0] + N[3 * d + 1] * arm[1] + N[3 * d + 2] * arm[2]
+                                : R[3 * d] * arm[0] + R[3 * d + 1] * arm[1] + R[3 * d + 2] * arm[2];
+    for (int d = 0; d < 3 && d < v->dim; d++) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         velocity[d] = k->has_next
                           ? (k->centre[d] + k->next_shift[d] + turned[d] - x[d]) / v->dt

@@ -12,12 +12,14 @@
 
 /* A kernel of arguments `given_`, a pointer to const. For NVPTX it takes them by value, apart from the memory of all, unless they are too large. */
 #ifdef __NVPTX__
+#define MPSK__GLOBAL      const __attribute__((address_space(1)))
 #define MPSK__LARGE(type) (sizeof(type) > MPS__LAUNCH_BY_VALUE)
 #define MPSK__KERNEL(name, type) \
     void name(__typeof__(__builtin_choose_expr(MPSK__LARGE(type), (const type *)0, *(type *)0)) at_)
 #define MPSK__GIVEN(type) \
     const type *const given_ = __builtin_choose_expr(MPSK__LARGE(type), at_, &at_);
 #else
+#define MPSK__GLOBAL             const
 #define MPSK__KERNEL(name, type) void name(const __attribute__((address_space(1))) type *at_)
 #define MPSK__GIVEN(type)        const type *const given_ = (const type *)(uintptr_t)at_;
 #endif
@@ -27,8 +29,15 @@
 
 _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
 
-/* Whether nothing reads any more what a kernel would write. */
-#define MPSK__LEFT_OUT(given) ((given).unless && *(given).unless)
+/* Whether nothing reads any more what a kernel would write. The address is compared as a number: for pointers NVPTX makes an address of 0 first. */
+#define MPSK__LEFT_OUT(given) \
+    (mpsk__bits(&(given).unless) != 0 && *(MPSK__GLOBAL int64_t *)mpsk__bits(&(given).unless))
+static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *value)
+{
+    int64_t bits;
+    __builtin_memcpy(&bits, value, sizeof bits);
+    return bits;
+}
 
 /* Both dimensions; `work` is what a row does, with dim_ and i_. */
 #define MPSK__BOTH(name, work)                               \
@@ -60,6 +69,30 @@ _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
     MPSK__BOTH(name, row(dim_, &given_->view, &given_->fields, i_);) \
     static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
 
+/* MPS_SUMS() does not say how many values a row has. A loop that stays one stores those that the compiler sees to be `first` still: code for each of
+ * MPS_PARALLEL_VALUES would be most of a short kernel. */
+#define MPSK__STORE_SOME                                                             \
+    const double first_ = given_->launch.first;                                      \
+    const int64_t count_ = given_->launch.count;                                     \
+    double *to_ = given_->launch.terms + i_;                                         \
+    int64_t set_ = 0;                                                                \
+    _Pragma("unroll") for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++)               \
+    {                                                                                \
+        const int same_ = mpsk__bits(&own_[k_]) == mpsk__bits(&first_);              \
+        if (!__builtin_constant_p(same_)) set_ = k_ + 1;                             \
+    }                                                                                \
+    _Pragma("unroll") for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++)               \
+    {                                                                                \
+        if (k_ >= set_) break;                                                       \
+        if (k_ < count_) *to_ = own_[k_];                                            \
+        to_ += given_->launch.n;                                                     \
+    }                                                                                \
+    _Pragma("clang loop unroll(disable)") for (int64_t k_ = set_; k_ < count_; k_++) \
+    {                                                                                \
+        *to_ = first_;                                                               \
+        to_ += given_->launch.n;                                                     \
+    }
+
 #undef MPS_SUMS
 #define MPS_SUMS(name, row, type)                                                                \
     typedef struct name##_given {                                                                \
@@ -69,8 +102,7 @@ _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
     } name##_given;                                                                              \
     MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                                           \
                for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] = given_->launch.first; \
-               row(dim_, &given_->view, &given_->fields, i_, own_);                              \
-               MPSK__STORE(MPS_PARALLEL_VALUES))                                                 \
+               row(dim_, &given_->view, &given_->fields, i_, own_); MPSK__STORE_SOME)            \
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
 
 #undef MPS__LOOP

@@ -28,17 +28,21 @@ static inline int64_t value_of(const mps__launch_join *g)
     return mps__thread_group() / g->parts;
 }
 
+/* Distances to the other thread of a join, in rounds between which all wait. */
+#define HALVES MPS__ROLLED for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2)
+
 /* The sums of the threads of a group become one; the first thread stores it. */
-#define JOIN_GROUP(shared, own, out)                                  \
-    shared[at.lane] = own;                                            \
-    for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2) { \
-        mps__thread_wait();                                           \
-        if (at.lane < half) {                                         \
-            const mps_exact other = shared[at.lane + half];           \
-            mps_exact_join(&own, &other);                             \
-            shared[at.lane] = own;                                    \
-        }                                                             \
-    }                                                                 \
+#define JOIN_GROUP(shared, own, out)                        \
+    shared[at.lane] = own;                                  \
+    HALVES                                                  \
+    {                                                       \
+        mps__thread_wait();                                 \
+        if (at.lane < half) {                               \
+            const mps_exact other = shared[at.lane + half]; \
+            mps_exact_join(&own, &other);                   \
+            shared[at.lane] = own;                          \
+        }                                                   \
+    }                                                       \
     if (at.lane == 0) ((mps_exact *)(out))[mps__thread_group()] = own;
 
 MPS__SHARED(mps_exact, added, MPS__LAUNCH_GROUP, mpsk_sums__add);
@@ -77,7 +81,8 @@ MPSK__KERNEL(mpsk_sums__raise, mps__launch_join)
     for (int64_t i = at.begin; i < n; i += at.step)
         if (terms[i] > own) own = terms[i];
     raised[at.lane] = own;
-    for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2) {
+    HALVES
+    {
         mps__thread_wait();
         if (at.lane < half && raised[at.lane + half] > raised[at.lane])
             raised[at.lane] = raised[at.lane + half];

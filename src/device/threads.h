@@ -3,6 +3,7 @@
 #ifndef MPS_DEVICE_THREADS_H
 #define MPS_DEVICE_THREADS_H
 
+#include "launch.h"
 #include <stddef.h>
 #include <stdint.h>
 
@@ -24,7 +25,7 @@ static inline int64_t mps__thread_lane(void)
 
 static inline int64_t mps__thread_row(void)
 {
-    return mps__thread_group() * __nvvm_read_ptx_sreg_ntid_x() + mps__thread_lane();
+    return mps__thread_group() * MPS__LAUNCH_GROUP + mps__thread_lane();
 }
 
 static inline void mps__thread_wait(void)

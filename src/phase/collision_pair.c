@@ -72,7 +72,7 @@ MPS_ROW void collide(const int dim, const mps_view *view, const fields *f, int64
     double du[3] = {0}, v[3];
     const bool solids = collide_pairs(dim, view, f, i, du);
     for (int d = 0; d < dim; d++) v[d] = u[d] + du[d];
-    if (solids) mps__walls_keep_off(view, wall_distance, 0, f->velocity, i, v);
+    if (solids) mps__walls_keep_off(dim, view, wall_distance, 0, f->velocity, i, v);
     for (int d = 0; d < dim; d++) {
         f->change[i * dim + d] = v[d] - u[d];
         f->walls[i * dim + d] = (v[d] - (u[d] + du[d])) / view->dt;

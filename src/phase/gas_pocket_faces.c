@@ -64,24 +64,24 @@ static inline double direction(const mps_voids *v, int32_t face, int32_t *axis)
 }
 
 /* Centre of a face in the frame of the tank. */
-static void face_centre(const mps_voids *v, int32_t face, double *x)
+MPS_ROW void face_centre(const int dim, const mps_voids *v, int32_t face, double *x)
 {
     int32_t axis;
     const double sign = direction(v, face, &axis);
     int64_t rest = v->face_cell[face];
-    for (int d = 0; d < v->dim; d++) {
+    for (int d = 0; d < dim; d++) {
         x[d] = v->origin[d] + ((double)(rest % v->cells[d]) + 0.5) * v->side;
         rest /= v->cells[d];
+        if (d == axis) x[d] += 0.5 * sign * v->side;
     }
-    x[axis] += 0.5 * sign * v->side;
 }
 
 /* A vector of the frame of the tank, in the lab. */
-static inline void to_lab(const mps_view *v, const double *X, double *x)
+MPS_ROW void to_lab(const int dim, const mps_view *v, const double *X, double *x)
 {
-    for (int d = 0; d < v->dim; d++) {
+    for (int d = 0; d < dim; d++) {
         x[d] = 0;
-        for (int e = 0; e < v->dim; e++) x[d] += v->tank.rotation[3 * d + e] * X[e];
+        for (int e = 0; e < dim; e++) x[d] += v->tank.rotation[3 * d + e] * X[e];
     }
 }
 
@@ -92,11 +92,11 @@ MPS_ROW int64_t surface_of(const int dim, const mps_view *v, const mps__pocket_f
                            int32_t axis)
 {
     const mps_stencil *t = &v->near;
-    double along[3] = {0}, lab[3] = {0}, size = 0, normal = 0, least = INFINITY;
+    double along[3], lab[3] = {0}, size = 0, normal = 0, least = INFINITY;
     int64_t nearest = -1;
     if (mps_is_fluid(v, i)) return i;
-    along[axis] = 1;
-    to_lab(v, along, lab);
+    for (int d = 0; d < 3; d++) along[d] = d == axis;
+    to_lab(dim, v, along, lab);
     for (int d = 0; d < dim; d++) {
         size += v->area[i * dim + d] * v->area[i * dim + d];
         normal += v->area[i * dim + d] * lab[d];
@@ -126,14 +126,15 @@ MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_face
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         int32_t axis;
-        double at[3], place[3];
+        double at[3], place[3] = {0};
         if (label < 0 || label >= PAIR) continue;
         const double sign = direction(&f->voids, face, &axis);
         const int64_t j = surface_of(dim, v, f, i, axis);
         if (j < 0) continue;
-        face_centre(&f->voids, face, at);
+        face_centre(dim, &f->voids, face, at);
         mps_view_tank(v, v->x + j * dim, place, NULL);
-        sums[2 * label] += sign * (place[axis] - at[axis]);
+        for (int d = 0; d < dim; d++)
+            if (d == axis) sums[2 * label] += sign * (place[d] - at[d]);
         normal[label][axis] += sign;
     }
     for (int k = 0; k < PAIR; k++) {
@@ -193,28 +194,31 @@ MPS_ROW void velocity_rise(const int dim, const mps_view *v, const mps__pocket_f
 }
 
 /* Centre of a face in the lab. */
-static void face_place(const mps_view *v, const mps_voids *voids, int32_t face, double *x)
+MPS_ROW void face_place(const int dim, const mps_view *v, const mps_voids *voids, int32_t face,
+                        double *x)
 {
     double at[3] = {0};
-    face_centre(voids, face, at);
-    for (int d = 0; d < voids->dim; d++) at[d] -= v->tank.centre[d];
-    to_lab(v, at, x);
-    for (int d = 0; d < voids->dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
+    face_centre(dim, voids, face, at);
+    for (int d = 0; d < dim; d++) at[d] -= v->tank.centre[d];
+    to_lab(dim, v, at, x);
+    for (int d = 0; d < dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
 }
 
 /* Unit vector of the lab along the sum of the faces that a row has before a component; 0: none. */
-static void normal_of(const mps_view *v, const mps__pocket_faces *f, int64_t i, int32_t component,
-                      double *n)
+MPS_ROW void normal_of(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                       int32_t component, double *n)
 {
     double own[3] = {0}, size = 0;
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         int32_t axis;
         const double sign = direction(&f->voids, f->face[k], &axis);
-        if (f->voids.face_label[f->face[k]] == component) own[axis] += sign;
+        if (f->voids.face_label[f->face[k]] != component) continue;
+        for (int d = 0; d < dim; d++)
+            if (d == axis) own[d] += sign;
     }
     for (int d = 0; d < 3; d++) size += own[d] * own[d];
     for (int d = 0; d < 3; d++) own[d] = size > 0 ? own[d] / sqrt(size) : 0;
-    to_lab(v, own, n);
+    to_lab(dim, v, own, n);
 }
 
 /* e.(u - u_tank) of fluid particle j, continued to a face along `rise`. */
@@ -222,12 +226,12 @@ MPS_ROW double face_flux(const int dim, const mps_view *v, const mps__pocket_fac
                          int32_t face, double rise[3][3])
 {
     int32_t axis;
-    double tank[3], along[3] = {0}, lab[3] = {0}, x[3] = {0}, flux = 0;
+    double tank[3] = {0}, along[3], lab[3] = {0}, x[3] = {0}, flux = 0;
     const double sign = direction(&f->voids, face, &axis);
-    along[axis] = sign;
-    to_lab(v, along, lab);
+    for (int d = 0; d < 3; d++) along[d] = d == axis ? sign : 0;
+    to_lab(dim, v, along, lab);
     mps_view_tank(v, v->x + j * dim, NULL, tank);
-    face_place(v, &f->voids, face, x);
+    face_place(dim, v, &f->voids, face, x);
     for (int d = 0; d < dim; d++) {
         double u = f->velocity[j * dim + d] - tank[d];
         for (int e = 0; e < dim; e++) u += rise[d][e] * (x[e] - v->x[j * dim + e]);
@@ -236,20 +240,18 @@ MPS_ROW double face_flux(const int dim, const mps_view *v, const mps__pocket_fac
     return flux;
 }
 
-/* Flux from behind a row of fluid into a component. */
-MPS_ROW double row_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
-                        int32_t component)
+/* `rise` without its trace, for the faces that a row of fluid has before a component. Returns the
+ * trace, div u. */
+MPS_ROW double row_rise(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+                        int32_t component, double rise[3][3])
 {
-    double rise[3][3], n[3], lost = 0, flux = 0;
+    double n[3], lost = 0;
     velocity_rise(dim, v, f, i, rise);
-    normal_of(v, f, i, component, n);
+    normal_of(dim, v, f, i, component, n);
     for (int d = 0; d < dim; d++) lost += rise[d][d];
     for (int d = 0; d < dim; d++)
         for (int e = 0; e < dim; e++) rise[d][e] -= lost * n[d] * n[e];
-    for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++)
-        if (f->voids.face_label[f->face[k]] == component)
-            flux += face_flux(dim, v, f, i, f->face[k], rise);
-    return flux + 0.5 * lost * f->row_volume;
+    return lost;
 }
 
 /* Whether face k of a row is not the first before its component. */
@@ -260,26 +262,26 @@ static inline bool is_again(const mps__pocket_faces *f, int64_t i, int32_t k)
     return false;
 }
 
-/* Terms of fluxes: of all faces, and of those that a fluid particle has itself. Fluid beside a wall
- * has no rise. */
+/* Terms of fluxes: of all faces, and of those that a fluid particle has itself, from behind its row,
+ * all before a component at the first. Fluid beside a wall has no rise. */
 MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                       double *sums)
 {
-    double none[3][3] = {{0}};
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
+        double rise[3][3] = {{0}}, flux = 0, lost = 0;
         int32_t axis;
         if (label < 0 || label >= PAIR || f->voids.face_label[face] == f->aside) continue;
         direction(&f->voids, face, &axis);
         const int64_t j = surface_of(dim, v, f, i, axis);
-        if (j < 0) continue;
-        if (j != i) {
-            sums[2 * label] += face_flux(dim, v, f, j, face, none);
-        } else if (!is_again(f, i, k)) {
-            const double flux = row_flux(dim, v, f, i, label + f->from);
-            sums[2 * label] += flux;
-            sums[2 * label + 1] += flux;
-        }
+        if (j < 0 || (j == i && is_again(f, i, k))) continue;
+        if (j == i) lost = row_rise(dim, v, f, i, label + f->from, rise);
+        for (int32_t m = k; m < (j == i ? f->begin[i + 1] : k + 1); m++)
+            if (f->voids.face_label[f->face[m]] == label + f->from)
+                flux += face_flux(dim, v, f, j, f->face[m], rise);
+        flux += 0.5 * lost * f->row_volume;
+        sums[2 * label] += flux;
+        if (j == i) sums[2 * label + 1] += flux;
     }
 }
 MPS_SUMS(add_fluxes, add_flux, mps__pocket_faces)
@@ -364,7 +366,7 @@ typedef struct contact {
     double inverse[3];       /* by axis: sum of 1/T_d */
 } contact;
 
-static contact sum_faces(const mps_view *v, const mps__pocket_faces *f, int64_t i)
+MPS_ROW contact sum_faces(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
 {
     contact c = {0};
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
@@ -376,12 +378,16 @@ static contact sum_faces(const mps_view *v, const mps__pocket_faces *f, int64_t 
         c.pressure += own;
         c.number = mps_larger(c.number, number_of(f, f->voids.face_label[face]));
         c.faces++;
-        c.out[axis] -= sign;
-        c.count[axis]++;
-        if (cells < 0 || other == f->voids.face_label[face]) continue;
+        const bool is_film = cells >= 0 && other != f->voids.face_label[face];
         const double thick = mps_larger(0.5 * v->dp, cells * f->voids.side + v->dp - 2 * f->cover);
-        c.slope[axis] += sign * (f->pressure[other] - own) / thick;
-        c.inverse[axis] += 1 / thick;
+        for (int d = 0; d < dim; d++) {
+            if (d != axis) continue;
+            c.out[d] -= sign;
+            c.count[d]++;
+            if (!is_film) continue;
+            c.slope[d] += sign * (f->pressure[other] - own) / thick;
+            c.inverse[d] += 1 / thick;
+        }
     }
     return c;
 }
@@ -403,7 +409,7 @@ MPS_ROW double film(const int dim, const mps_view *v, const mps__pocket_faces *f
     }
     for (int d = 0; d < dim; d++) slope[d] = 0;
     if (size == 0) return 0;
-    to_lab(v, own, slope);
+    to_lab(dim, v, own, slope);
     for (int d = 0; d < dim; d++) n[d] = slope[d] / sqrt(size);
     const double rough = 1 / sqrt(inverse);
     const double scale = rough < THIN * v->dp ? rough / thickness(dim, v, f, i, n) : 1;
@@ -417,7 +423,7 @@ MPS_ROW double film(const int dim, const mps_view *v, const mps__pocket_faces *f
 MPS_ROW void press_fluid(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
 {
     if (f->begin[i] == f->begin[i + 1]) return;
-    const contact c = sum_faces(v, f, i);
+    const contact c = sum_faces(dim, v, f, i);
     const double rise = film(dim, v, f, i, &c, f->slope + i * dim);
     double *row = f->row + i * MPS__POCKET_ROW;
     row[MPS__ROW_PRESSURE] = c.pressure / c.faces - rise;

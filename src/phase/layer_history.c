@@ -120,18 +120,18 @@ MPS_ROW void keep_tangential(const int dim, const double *normal, double *u)
 
 /* Means over the first row before a wall. */
 typedef struct row_mean {
-    double total, rho, mu, u[3], tank[3];
+    double total, rho, mu, u[3], other[3], tank[3];
 } row_mean;
 
-/* `values`: a vector of fluid. Sums are divided by `total`; of a dry wall it is 0. */
-MPS_ROW row_mean mean_before(const int dim, const mps_view *v, const fields *f,
-                             const double *values, int64_t i, const double *normal)
+/* `other`: a vector of fluid, or NULL. Sums are divided by `total`; of a dry wall it is 0. */
+MPS_ROW row_mean mean_before(const int dim, const mps_view *v, const fields *f, const double *other,
+                             int64_t i, const double *normal)
 {
     const mps_stencil *t = &v->near;
     row_mean m = {0};
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int64_t j = mps_stencil_column(t, p);
-        double tank[3];
+        double tank[3] = {0};
         if (!mps_is_fluid(v, j)) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double share = share_of(dim, v, &q, v->x + i * dim, v->x + j * dim, normal);
@@ -141,7 +141,8 @@ MPS_ROW row_mean mean_before(const int dim, const mps_view *v, const fields *f,
         m.rho += share * f->density[j];
         m.mu += share * v->viscosity[v->phase[j]];
         for (int d = 0; d < dim; d++) {
-            m.u[d] += share * values[j * dim + d];
+            m.u[d] += share * f->velocity[j * dim + d];
+            if (other) m.other[d] += share * other[j * dim + d];
             m.tank[d] += share * tank[d];
         }
     }
@@ -150,6 +151,7 @@ MPS_ROW row_mean mean_before(const int dim, const mps_view *v, const fields *f,
     m.mu /= m.total;
     for (int d = 0; d < dim; d++) {
         m.u[d] /= m.total;
+        m.other[d] /= m.total;
         m.tank[d] /= m.total;
     }
     return m;
@@ -163,10 +165,10 @@ MPS_ROW void lose_layer(const int dim, const fields *f, int64_t i)
 /* Acceleration of a full first row before wall i, by w and the layer at the beginning of the step. */
 MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    double normal[3], area, tank[3];
+    double normal[3], area, tank[3] = {0};
     mps__layers of;
     if (!normal_of(dim, v, i, normal, &area)) return;
-    const row_mean m = mean_before(dim, v, f, f->velocity, i, normal);
+    const row_mean m = mean_before(dim, v, f, NULL, i, normal);
     f->total[i] = m.total;
     if (m.total == 0) {
         lose_layer(dim, f, i);
@@ -279,13 +281,12 @@ MPS_ROW void hold(const int dim, const mps_view *v, const fields *f, int64_t i)
     double normal[3], area;
     mps__layers of;
     if (!normal_of(dim, v, i, normal, &area)) return;
-    const row_mean now = mean_before(dim, v, f, f->velocity, i, normal),
-                   start = mean_before(dim, v, f, f->start, i, normal);
+    const row_mean now = mean_before(dim, v, f, f->start, i, normal);
     f->total[i] = now.total;
     if (now.total == 0) return;
     mps__layers_of_wall(dim, v->far.re / v->dp, now.mu / now.rho, v->dp, v->dt, &of);
     double *a = f->push + i * dim;
-    for (int d = 0; d < dim; d++) a[d] = -(now.u[d] - start.u[d]) * of.added / (1 + of.added);
+    for (int d = 0; d < dim; d++) a[d] = -(now.u[d] - now.other[d]) * of.added / (1 + of.added);
     keep_tangential(dim, normal, a);
     for (int d = 0; d < dim; d++) a[d] *= area * now.rho / mps_larger(now.total, f->full);
 }
@@ -306,10 +307,10 @@ MPS_ROWS(give_rows, give, fields)
 /* The layer follows the flow of this step, and turns with the tank. */
 MPS_ROW void follow(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    double normal[3], area, tank[3], du[3] = {0};
+    double normal[3], area, tank[3] = {0}, du[3] = {0};
     mps__layers of;
     if (!normal_of(dim, v, i, normal, &area) || f->total[i] == 0) return;
-    const row_mean m = mean_before(dim, v, f, f->velocity, i, normal);
+    const row_mean m = mean_before(dim, v, f, NULL, i, normal);
     mps_view_tank(v, v->x + i * dim, NULL, tank);
     mps__layers_of_wall(dim, v->far.re / v->dp, m.mu / m.rho, v->dp, v->dt, &of);
     const double *w = f->flow + i * dim;

@@ -7,6 +7,8 @@ static const double PI = 3.14159265358979323846;
 
 /* Ratio of the rates; slowest rate 4 w^2, tan w = w; first weights, from the three conditions. */
 static const double RATIO = 3.5, SLOWEST = 80.7629142257065;
+/* Its logarithm and its power of 6, exact: else kernels of devices find them for each particle. */
+static const double LOG_RATIO = 1.2527629684953681, POWER_6 = 1838.265625;
 static const double FIRST[3] = {8.061972689696825, 12.990337578214488, 24.839696676022093};
 
 /* (1 - exp(-z))/z */
@@ -15,10 +17,10 @@ static double phi1(double z)
     return z < 1e-5 ? 1 - z * (0.5 - z / 6) : -mps_expm1(-z) / z;
 }
 
-/* (1 - phi1(z))/z */
-static double phi2(double z)
+/* (1 - phi1(z))/z; first: phi1(z) */
+static double phi2(double z, double first)
 {
-    return z < 1e-3 ? 0.5 - z * (1.0 / 6 - z * (1.0 / 24 - z / 120)) : (1 - phi1(z)) / z;
+    return z < 1e-3 ? 0.5 - z * (1.0 / 6 - z * (1.0 / 24 - z / 120)) : (1 - first) / z;
 }
 
 /* What the modes are made of, without dimensions. */
@@ -33,21 +35,21 @@ typedef struct modes {
 
 static void fill(const modes *m, double dt, mps__layers *layers)
 {
-    const double steady = m->steady * m->scale;
+    const double steady = m->steady * m->scale, single = phi1(steady * dt);
     double rate = m->slowest, drag = steady;
     /* Of a lone steady part u decays by exp(-steady dt): this share of du is implicit, 1/2 for
      * short steps. */
-    double added = steady * dt * phi2(steady * dt) / phi1(steady * dt);
+    double added = steady * dt * phi2(steady * dt, single) / single;
     for (int k = 0; k < MPS__LAYERS; k++, rate *= RATIO) {
         const bool own = k >= m->first && k < m->first + m->count;
         const double weight = own ? m->own[k - m->first] : m->weight * sqrt(rate);
-        const double z = rate * m->scale * dt;
+        const double z = rate * m->scale * dt, first = phi1(z), second = phi2(z, first);
         layers->keep[k] = mps_exp(-z);
-        layers->rise[k] = z * phi2(z);
-        layers->pull[k] = m->scale * weight * phi1(z);
+        layers->rise[k] = z * second;
+        layers->pull[k] = m->scale * weight * first;
         layers->energy[k] = weight / (2 * rate);
         drag += layers->pull[k];
-        added += m->scale * dt * weight * phi2(z);
+        added += m->scale * dt * weight * second;
     }
     layers->drag = drag;
     layers->added = added;
@@ -58,7 +60,7 @@ void mps__layers_of(double nu, double width, double dt, mps__layers *layers)
     const modes m = {.scale = nu / (width * width),
                      .steady = 12,
                      .slowest = SLOWEST,
-                     .weight = 2 / PI * mps_log(RATIO),
+                     .weight = 2 / PI * LOG_RATIO,
                      .count = 3,
                      .own = FIRST};
     fill(&m, dt, layers);
@@ -84,8 +86,8 @@ bool mps__layers_of_wall(int dim, double radius, double nu, double dp, double dt
         if (WALL[k].dim != dim || fabs(WALL[k].radius - radius) > 1e-6) continue;
         const modes m = {.scale = nu / (dp * dp),
                          .steady = WALL[k].steady,
-                         .slowest = 0.3 / mps_pow(RATIO, OWN),
-                         .weight = mps_log(RATIO) / PI,
+                         .slowest = 0.3 / POWER_6,
+                         .weight = LOG_RATIO / PI,
                          .first = OWN,
                          .count = OWN,
                          .own = WALL[k].own};

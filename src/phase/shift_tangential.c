@@ -209,7 +209,7 @@ MPS_ROW void move(const int dim, const mps_view *view, const fields *f, int64_t 
         shift_of(dim, view, f, i, &sums, v);
     }
     if (sums.solids)
-        mps__walls_keep_off(view, wall_distance * view->dp, k[LIMIT] * view->dp, NULL, i, v);
+        mps__walls_keep_off(dim, view, wall_distance * view->dp, k[LIMIT] * view->dp, NULL, i, v);
     if (k[TRANSPORT] > 0 && !spray) transport(dim, view, &sums, v, f->du + i * dim);
     for (int d = 0; d < dim; d++) f->displacement[i * dim + d] += v[d];
 }

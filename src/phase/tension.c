@@ -111,7 +111,8 @@ MPS_ROW bool at_interface(const mps_view *v, const mps_stencil *t, int64_t i)
 
 MPS_ROW void find_curvature(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    if (!at_interface(v, f->which == MPS_NEAR ? &v->near : &v->far, i)) return;
+    if (!(f->which == MPS_NEAR ? at_interface(v, &v->near, i) : at_interface(v, &v->far, i)))
+        return;
     contour_sums m;
     collect(dim, v, &f->grid, i, &m);
     f->kappa[i] = curvature(dim, v, &m, f->threshold);

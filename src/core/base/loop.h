@@ -88,6 +88,13 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
 #define MPS__INDEPENDENT
 #endif
 
+/* The next loop stays one in kernels of devices, where code for each round would be long and no faster. */
+#ifdef MPS_DEVICE
+#define MPS__ROLLED _Pragma("clang loop unroll(disable)")
+#else
+#define MPS__ROLLED
+#endif
+
 /* MPS__LOOP() of rows that do next to nothing and do not look at the dimension: a vector loop on the host. */
 #define MPS__LOOP_CHEAP(name, row, type)                                                  \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \

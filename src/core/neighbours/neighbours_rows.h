@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_NEIGHBOURS_ROWS_H
 #define MPS_CORE_NEIGHBOURS_ROWS_H
 
+#include "loop.h"
 #include "neighbours.h"
 #include <mps/stage.h>
 #include <string.h>
@@ -72,7 +73,9 @@ MPS_ROW int mps__ranges_around(const int dim, const uint64_t *key, int64_t n, ui
 {
     const int bits = mps__cell_bits(dim), high = dim == 3;
     int count = 0;
-    for (int dz = -high; dz <= high; dz++)
+    MPS__ROLLED
+    for (int dz = -high; dz <= high; dz++) {
+        MPS__ROLLED
         for (int dy = -1; dy <= 1; dy++) {
             int64_t step = (int64_t)dy * (INT64_C(1) << bits) +
                            (high ? (int64_t)dz * (INT64_C(1) << (2 * bits)) : 0);
@@ -84,6 +87,7 @@ MPS_ROW int mps__ranges_around(const int dim, const uint64_t *key, int64_t n, ui
                 range[count++][1] = last;
             }
         }
+    }
     return count;
 }
 

@@ -12,9 +12,6 @@
 typedef struct mps__halves {
     const double *density, *wetted; /* of the row of the wall; share of the cell, NULL: all of it */
     const int32_t *region;
-    const double *a; /* acceleration of the liquid: of particle j from a[j*stride] on */
-    int64_t stride;
-    double turn[3]; /* angular acceleration of the tank */
 } mps__halves;
 
 /* Mass of a particle of the liquid, which ends at the centres of those on the surface. */
@@ -98,11 +95,19 @@ MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halve
     return h->density[i] * share * (outer ? cell - volume : volume);
 }
 
+/* Accelerations about a half cell: the liquid's, of particle j from a[j*stride] on; the tank's, linear at the wall and angular. */
+typedef struct mps__half_pull {
+    const double *a;
+    int64_t stride;
+    double tank[3], turn[3];
+} mps__half_pull;
+
 /* Acceleration of that cell: that of the wall, `tank`, along the normal; along the face the mean of the liquid about it, brought to the middle of
  * the cell, dp/4 from the wall. An acceleration by pressures has no curl: across a wall its part along the face changes as the part along the
- * normal does along the wall, by n x `turn`. */
+ * normal does along the wall, by n x the angular acceleration of the tank. */
 MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps__halves *h,
-                                    int64_t i, const double *tank, const double n[3], double out[3])
+                                    const mps__half_pull *pull, int64_t i, const double n[3],
+                                    double out[3])
 {
     const mps_stencil *t = &v->near;
     double weight = 0, away = 0, across = 0, change[3];
@@ -114,13 +119,13 @@ MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps_
         weight += q.w;
         for (int d = 0; d < dim; d++) {
             away += q.w * q.d[d] * n[d];
-            out[d] += q.w * h->a[j * h->stride + d];
+            out[d] += q.w * pull->a[j * pull->stride + d];
         }
     }
-    mps__cross(n, h->turn, change);
+    mps__cross(n, pull->turn, change);
     for (int d = 0; d < dim && weight > 0; d++)
         out[d] = out[d] / weight - (away / weight - 0.25 * v->dp) * change[d];
-    for (int d = 0; d < dim; d++) across += n[d] * (tank[d] - out[d]);
+    for (int d = 0; d < dim; d++) across += n[d] * (pull->tank[d] - out[d]);
     for (int d = 0; d < dim; d++) out[d] += across * n[d];
 }
 

@@ -107,19 +107,21 @@ const mps__pass mps__pass_begin_load = {.name = "begin_load",
 
 typedef struct half_fields {
     mps__halves halves;
-    const double *tank;
-    double at[3];
+    const double *tank, *acceleration;
+    double at[3], turn[3];
 } half_fields;
 
 /* Pressures give the liquid its acceleration less gravity. */
 MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, int64_t i,
                       double *term)
 {
-    double n[3] = {0}, tank[3] = {0}, a[3], r[3] = {0}, push[3] = {0};
+    double n[3] = {0}, a[3], r[3] = {0}, push[3] = {0};
+    mps__half_pull pull = {.a = f->acceleration, .stride = dim};
     const double mass = mps__half_cell(dim, v, &f->halves, i, n);
     if (mass == 0) return;
-    for (int d = 0; d < dim; d++) tank[d] = f->tank[i * dim + d] - v->g[d];
-    mps__half_acceleration(dim, v, &f->halves, i, tank, n, a);
+    for (int d = 0; d < dim; d++) pull.tank[d] = f->tank[i * dim + d] - v->g[d];
+    for (int d = 0; d < 3; d++) pull.turn[d] = f->turn[d];
+    mps__half_acceleration(dim, v, &f->halves, &pull, i, n, a);
     for (int d = 0; d < dim; d++) {
         push[d] = -mass * a[d];
         r[d] = v->x[i * dim + d] - f->at[d];
@@ -131,16 +133,14 @@ MPS_SUMS(add_halves, add_half, half_fields)
 
 static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
 {
-    half_fields f = {.tank = a->tank,
-                     .halves = {.density = a->density,
-                                .wetted = s->view->flux.wetted,
-                                .region = a->region,
-                                .a = a->acceleration,
-                                .stride = s->view->dim}};
+    half_fields f = {
+        .tank = a->tank,
+        .acceleration = a->acceleration,
+        .halves = {.density = a->density, .wetted = s->view->flux.wetted, .region = a->region}};
     double accel[6];
     mps__step_acceleration(mps__step_of(s), accel);
     memcpy(f.at, mps__step_of(s)->load.at, sizeof f.at);
-    memcpy(f.halves.turn, accel + 3, sizeof f.halves.turn);
+    memcpy(f.turn, accel + 3, sizeof f.turn);
     mps_stage_sum(s, 6, &add_halves, &f, force);
 }
 

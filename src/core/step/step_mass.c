@@ -112,6 +112,7 @@ typedef struct mass_fields {
     const double *p, *correction, *density; /* changes of pressures [n*count]; of particles */
     double *a;                              /* [n*count*dim] changes of accelerations */
     mps__mass_columns columns;
+    int64_t stride;      /* count*dim */
     int32_t first, last; /* columns of one sum */
     double at[3], cell;
 } mass_fields;
@@ -122,11 +123,16 @@ MPS_ROW double along(const int dim, const int k, const double *d, const double t
     return k < dim ? d[k] : turn[dim == 2 ? 2 : k - 3];
 }
 
+static inline int axis_of(const int dim, const int k)
+{
+    return k < dim ? k : dim == 2 ? 2 : k - 3;
+}
+
 /* Acceleration of the tank at an arm from the centre, by degree of freedom k. */
 MPS_ROW void tank_acceleration(const int dim, const int k, const double arm[3], double out[3])
 {
-    double axis[3] = {0};
-    axis[k < dim ? k : dim == 2 ? 2 : k - 3] = 1;
+    double axis[3];
+    for (int d = 0; d < 3; d++) axis[d] = d == axis_of(dim, k);
     if (k < dim)
         for (int d = 0; d < 3; d++) out[d] = axis[d];
     else
@@ -182,7 +188,6 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
                         double *term)
 {
     const int dofs = DOFS(dim);
-    const int64_t stride = f->halves.stride;
     const bool fluid = mps_is_fluid(v, i);
     double arm[3] = {0}, n[3] = {0};
     const double mass = fluid ? mps__cell_mass(f->density, f->halves.region, f->cell, i)
@@ -191,16 +196,14 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
     for (int d = 0; d < dim; d++) arm[d] = v->x[i * dim + d] - f->at[d];
     for (int c = f->first; c < f->last; c++, term += dofs) {
         const int k = f->columns.degree[c];
-        const double *a = f->a + c * dim;
-        double force[3] = {0}, moment[3], tank[3];
+        mps__half_pull pull = {.a = f->a + c * dim, .stride = f->stride};
+        double force[3] = {0}, moment[3];
         if (fluid)
-            for (int d = 0; d < dim; d++) force[d] = a[i * stride + d];
+            for (int d = 0; d < dim; d++) force[d] = pull.a[i * pull.stride + d];
         else {
-            tank_acceleration(dim, k, arm, tank);
-            mps__halves halves = f->halves;
-            halves.a = a;
-            if (k >= dim) halves.turn[dim == 2 ? 2 : k - 3] = 1;
-            mps__half_acceleration(dim, v, &halves, i, tank, n, force);
+            tank_acceleration(dim, k, arm, pull.tank);
+            for (int d = 0; d < 3; d++) pull.turn[d] = k >= dim && d == axis_of(dim, k);
+            mps__half_acceleration(dim, v, &f->halves, &pull, i, n, force);
         }
         for (int d = 0; d < dim; d++) force[d] *= mass;
         mps__cross(arm, force, moment);
@@ -217,15 +220,14 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     const int32_t dim = s->dim, correction = mps__channels_find(&w->channels, "correction"),
                   count = q->columns.count;
     const mps_flux *flux = q->terms.flux;
-    mass_fields f = {.halves = {.density = flux->density,
-                                .wetted = flux->wetted,
-                                .region = s->region,
-                                .stride = (int64_t)count * dim},
-                     .p = w->mass.next,
-                     .a = w->mass.a,
-                     .density = s->rho,
-                     .columns = q->columns,
-                     .cell = mps_pow(w->setup.dp, dim)};
+    mass_fields f = {
+        .halves = {.density = flux->density, .wetted = flux->wetted, .region = s->region},
+        .stride = (int64_t)count * dim,
+        .p = w->mass.next,
+        .a = w->mass.a,
+        .density = s->rho,
+        .columns = q->columns,
+        .cell = mps_pow(w->setup.dp, dim)};
     mps_view v = q->view;
     memcpy(f.at, q->load.at, sizeof f.at);
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);
