@@ -134,11 +134,12 @@ static inline int32_t mps_voids_near(const mps_voids *v, const double *X, double
             for (k[0] = lo[0]; k[0] <= hi[0]; k[0]++) {
                 const int32_t label = v->label[k[0] + v->cells[0] * (k[1] + v->cells[1] * k[2])];
                 double square = 0;
+                if (label < 0) continue;
                 for (int d = 0; d < v->dim; d++) {
                     const double r = v->origin[d] + ((double)k[d] + 0.5) * v->side - X[d];
                     square += r * r;
                 }
-                if (label < 0 || square > least || (square == least && found >= 0)) continue;
+                if (square > least || (square == least && found >= 0)) continue;
                 least = square;
                 found = label;
             }

@@ -5,6 +5,7 @@
 
 #include "helpers.h"
 #include <mps/voids.h>
+#include <string.h>
 
 enum { MPS__POCKET_AMBIENT, MPS__POCKET_EXPONENT, MPS__POCKET_LEAST, MPS__POCKET_ULLAGE };
 
@@ -62,6 +63,21 @@ typedef struct mps__pocket_now {
     double ambient;   /* amount of gas in a volume of ambient [-] */
     double t;
 } mps__pocket_now;
+
+/* The first cell from one on that has another label, or `end`. Runs are long: 16 at once. */
+static inline int64_t mps__pocket_run(const int32_t *label, int64_t cell, int64_t end)
+{
+    enum { PAIRS = 8 };
+    const int32_t same = label[cell];
+    const uint64_t both = (uint32_t)same * UINT64_C(0x100000001);
+    for (uint64_t pair[PAIRS], differ = 0; end - cell >= 2 * PAIRS; cell += 2 * PAIRS) {
+        memcpy(pair, label + cell, sizeof pair);
+        for (int k = 0; k < PAIRS; k++) differ |= pair[k] ^ both;
+        if (differ) break;
+    }
+    while (cell < end && label[cell] == same) cell++;
+    return cell;
+}
 
 /* The pockets of the last step. */
 mps__pocket_old mps__pocket_read(const mps_stage *s);

@@ -121,8 +121,8 @@ enum { PAIR = MPS_PARALLEL_VALUES / 2 };
 MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                         double *sums)
 {
-    double normal[PAIR][3] = {{0}};
     if (f->begin[i] == f->begin[i + 1]) return;
+    double normal[PAIR][3] = {{0}};
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         int32_t axis;
@@ -267,6 +267,7 @@ static inline bool is_again(const mps__pocket_faces *f, int64_t i, int32_t k)
 MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                       double *sums)
 {
+    if (f->begin[i] == f->begin[i + 1]) return;
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         double rise[3][3] = {{0}}, flux = 0, lost = 0;
@@ -321,13 +322,13 @@ static int32_t march(const mps_voids *v, int32_t face, int32_t *other)
         place /= v->cells[d];
     }
     place %= v->cells[axis];
-    for (int64_t cell = v->face_cell[face];; count++) {
-        place += sign > 0 ? 1 : -1;
-        cell += sign > 0 ? stride : -stride;
-        if (place < 0 || place >= v->cells[axis] || v->label[cell] == MPS_VOID_SOLID) return -1;
-        *other = v->label[cell];
-        if (*other >= 0) return count;
-    }
+    const int64_t most = sign > 0 ? v->cells[axis] - 1 - place : place;
+    const int32_t *label = v->label + v->face_cell[face];
+    if (sign < 0) stride = -stride;
+    while (count < most && label[(count + 1) * stride] == MPS_VOID_NONE) count++;
+    if (count == most) return -1;
+    *other = label[(count + 1) * stride];
+    return *other == MPS_VOID_SOLID ? -1 : count;
 }
 
 /* Thickness of a film along a unit vector of the lab, from particle i to the farthest of the film,

@@ -24,10 +24,15 @@ static void count_overlaps(const mps_voids *v, const mps__pocket_old *old, mps__
     int64_t cell = 0;
     if (v->count < 2 && pockets == 0) return; /* the ambient alone stays the ambient */
     for (int64_t r = 0; r < runs; r++) {
-        const int64_t end = cell + (int64_t)old->run[2 * r];
+        const int64_t length = (int64_t)old->run[2 * r],
+                      end = length < all - cell ? cell + length : all;
         const int32_t before = (int32_t)old->run[2 * r + 1];
-        for (; cell < end && cell < all; cell++)
-            if (v->label[cell] >= 0) overlap_of(now, pockets, v->label[cell])[before]++;
+        while (cell < end) {
+            const int64_t begin = cell;
+            cell = mps__pocket_run(v->label, cell, end);
+            if (v->label[begin] >= 0)
+                overlap_of(now, pockets, v->label[begin])[before] += (int32_t)(cell - begin);
+        }
     }
 }
 

@@ -54,10 +54,8 @@ static int64_t runs(const mps_voids *v, const int32_t *label, double *run)
     int64_t count = 0;
     for (int64_t begin = 0, cell = 0; begin < all; begin = cell) {
         const double own = label_of(v->label[begin], label);
-        while (cell < all && label_of(v->label[cell], label) == own) {
-            const int32_t same = v->label[cell];
-            while (cell < all && v->label[cell] == same) cell++;
-        }
+        while (cell < all && label_of(v->label[cell], label) == own)
+            cell = mps__pocket_run(v->label, cell, all);
         if (run) {
             run[2 * count] = (double)(cell - begin);
             run[2 * count + 1] = own;

@@ -11,7 +11,7 @@ void mps__voids_init(mps__voids *v, mps__context *context)
 void mps__voids_free(mps__voids *v)
 {
     void *const blocks[] = {v->mask,  v->space,  v->ullage, v->offset, v->place, v->slab, v->next,
-                            v->head,  v->plain,  v->run,    v->taken,  v->sure,  v->wide, v->what,
+                            v->head,  v->marks,  v->run,    v->taken,  v->sure,  v->wide, v->what,
                             v->label, v->parent, v->found,  v->number, v->queue, v->size};
     for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) mps__free(v->context, blocks[k]);
     for (int k = 0; k < MPS__VOID_FACE; k++) mps__free(v->context, v->face[k]);
@@ -64,13 +64,14 @@ static void insert_offset(mps__voids *v, const mps__void_offset *o)
 
 mps_status mps__voids_offsets(mps__voids *v)
 {
-    static const int32_t own[3] = {0, 0, 0};
+    static const int32_t own[3] = {0, 0, 0}, beside[3] = {1, 0, 0};
     const double reach = v->config.channel / v->config.side,
                  cover = v->config.cover / v->config.side;
     v->reach2 = reach * reach;
     v->cover2 = cover * cover;
     v->window = (int32_t)ceil(reach - 0.5);
     v->octant_sure = v->dim < v->reach2;
+    v->beside_sure = square_of(beside, v->dim, true) < v->reach2;
     v->own_covers = square_of(own, v->dim, true) < v->cover2;
     const int32_t w = v->window, z = v->dim == 3 ? w : 0;
     const int64_t most = (int64_t)(2 * w + 1) * (2 * w + 1) * (2 * z + 1);

@@ -56,7 +56,7 @@ typedef struct mps__void_run {
 /* Memory that is kept from step to step, and grows. */
 typedef struct mps__void_room {
     int64_t mask, space, ullage, offset, place, slab, next, head, taken, sure, wide, what;
-    int64_t plain, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
+    int64_t marks, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
 } mps__void_room;
 
 typedef struct mps__voids {
@@ -79,7 +79,7 @@ typedef struct mps__voids {
         space; /* [total] number of the compartment that a cell is in, 0: solid; where there are two or more */
     int32_t spaces;                 /* compartments */
     uint8_t wet[MPS__COMPARTMENTS]; /* 1: liquid is in it, as the mask has it */
-    uint8_t *plain;                 /* [lines along the first axis] 1: no bit of the mask is set */
+    uint8_t *marks;                 /* [lines along the first axis] all bits of the mask in it */
     int64_t *
         ullage; /* [slabs + 1] void cells from a slab upwards; -1: they are more than one component */
     /* who reaches a cell */
@@ -88,6 +88,7 @@ typedef struct mps__voids {
     int32_t offsets;
     mps__void_offset *offset; /* [offsets] by distance */
     bool octant_sure; /* a particle is within the channel of its cell and those on its side of it */
+    bool beside_sure; /* and of all those that share a side with its cell */
     bool own_covers;  /* a particle in the cell is within the cover */
     /* the search */
     int32_t band;     /* slabs that it looks at */

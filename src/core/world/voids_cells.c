@@ -26,6 +26,14 @@ static inline bool is_there(const mps__voids *v, const int32_t at[3], const int3
     return there;
 }
 
+/* Whether all cells from which one may be reached are. */
+static inline bool is_inner(const mps__voids *v, const int32_t at[3])
+{
+    const int32_t low[3] = {-v->window, -v->window, -v->window},
+                  high[3] = {v->window, v->window, v->window};
+    return is_there(v, at, low) && is_there(v, at, high);
+}
+
 double mps__voids_nearest(const mps__voids *v, const mps__world *w, int64_t cell, double enough,
                           int32_t *row)
 {
@@ -34,9 +42,11 @@ double mps__voids_nearest(const mps__voids *v, const mps__world *w, int64_t cell
     int32_t at[3];
     *row = -1;
     mps__voids_place(v, cell, at);
+    const bool inner = is_inner(v, at);
     for (int32_t k = 0; k < v->offsets && v->offset[k].least <= least; k++) {
-        if (!is_there(v, at, v->offset[k].at) || !v->taken[cell + v->offset[k].cell]) continue;
-        for (int32_t i = v->head[cell + v->offset[k].cell]; i >= 0; i = v->next[i]) {
+        const int64_t from = cell + v->offset[k].cell;
+        if ((!inner && !is_there(v, at, v->offset[k].at)) || !v->taken[from]) continue;
+        for (int32_t i = v->head[from]; i >= 0; i = v->next[i]) {
             double square = 0;
             for (int d = 0; d < v->dim; d++) {
                 const double r = at[d] + 0.5 - v->place[i * v->dim + d];
@@ -92,7 +102,7 @@ MPS_ROW void mark(const int dim, mps__voids *v, const int32_t at[3], const doubl
     }
 }
 
-/* The same of a cell with others on all sides. */
+/* The same of a cell with others on all sides, and those that share a side with it where all of them are surely reached. */
 MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const double off[3])
 {
     uint8_t *own = v->sure + cell;
@@ -103,6 +113,7 @@ MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const 
         near[d] = off[d] * off[d];
         far[d] = (1 - fabs(off[d])) * (1 - fabs(off[d]));
     }
+    for (int d = 0; d < dim && v->beside_sure; d++) own[v->step[d]] = own[-v->step[d]] = 1;
     if (v->octant_sure) {
         for (int k = 0; k < 1 << dim; k++)
             own[(k & 1 ? step[0] : 0) + (k & 2 ? step[1] : 0) + (k & 4 ? step[2] : 0)] = 1;
@@ -222,27 +233,32 @@ static uint8_t cover_of(const mps__voids *v, const mps__world *w, int64_t c)
                                                                     : MPS__CELL_NARROW;
 }
 
-static void settle_cell(const part_fields *f, int64_t c)
+/* Solid cells are what they are, and what a plate may hide is not sure. */
+static void mask_line(mps__voids *v, int64_t first)
 {
-    mps__voids *v = f->v;
-    uint8_t *what = &v->what[c];
-    int32_t row;
-    if (v->mask[c] & MPS__MASK_SOLID) {
-        *what = MPS__CELL_SOLID;
-        return;
+    const int64_t n = v->cells[0];
+    const uint8_t *mask = v->mask + first;
+    uint8_t *what = v->what + first;
+    for (int64_t c = 0; c < n; c++) {
+        const bool doubt = mask[c] & MPS__MASK_PLATE && what[c] == MPS__CELL_COVERED;
+        const uint8_t open = doubt ? MPS__CELL_LIQUID : what[c];
+        what[c] = mask[c] & MPS__MASK_SOLID ? MPS__CELL_SOLID : open;
     }
-    if (*what == MPS__CELL_LIQUID || (*what == MPS__CELL_COVERED && v->mask[c] & MPS__MASK_PLATE))
-        *what = mps__voids_nearest(v, f->w, c, v->reach2, &row) < v->reach2 ? MPS__CELL_COVERED
-                                                                            : MPS__CELL_DEEP;
-    if (f->all && *what == MPS__CELL_COVERED) *what = cover_of(v, f->w, c);
 }
 
-/* Of a line without solid cells and plates: most cells are settled. */
+/* Most cells of a line are settled by the guess: distances of the others. */
 static void settle_line(const part_fields *f, int64_t begin, int64_t end)
 {
-    const uint8_t *next = f->v->what + begin, *last = f->v->what + end;
-    for (; (next = memchr(next, MPS__CELL_LIQUID, (size_t)(last - next))) != NULL; next++)
-        settle_cell(f, next - f->v->what);
+    mps__voids *v = f->v;
+    const uint8_t *next = v->what + begin, *last = v->what + end;
+    int32_t row;
+    for (; (next = memchr(next, MPS__CELL_LIQUID, (size_t)(last - next))) != NULL; next++) {
+        const int64_t c = next - v->what;
+        v->what[c] = mps__voids_nearest(v, f->w, c, v->reach2, &row) < v->reach2 ? MPS__CELL_COVERED
+                                                                                 : MPS__CELL_DEEP;
+    }
+    for (int64_t c = begin; f->all && c < end; c++)
+        if (v->what[c] == MPS__CELL_COVERED) v->what[c] = cover_of(v, f->w, c);
 }
 
 MPS_ROW void class_row(const int dim, const part_fields *f, int64_t part)
@@ -256,10 +272,8 @@ MPS_ROW void class_row(const int dim, const part_fields *f, int64_t part)
         for (int64_t line = 0; line < lines; line++) {
             const int64_t first = z * v->plane + line * v->cells[0];
             guess_line(v, first, z);
-            if (f->all || !v->plain[z * lines + line])
-                for (int64_t c = first; c < first + v->cells[0]; c++) settle_cell(f, c);
-            else
-                settle_line(f, first, first + v->cells[0]);
+            if (v->marks[z * lines + line]) mask_line(v, first);
+            settle_line(f, first, first + v->cells[0]);
         }
 }
 MPS__LOOP_ANY(class_parts, class_row, part_fields)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Faces of the components of the void. */
 #include "world.h"
+#include <string.h>
 
 static mps_status add_face(mps__voids *v, const int32_t face[MPS__VOID_FACE])
 {
@@ -39,10 +40,37 @@ static mps_status add_faces_of(mps__voids *v, const mps__world *w, int64_t c)
     return MPS_OK;
 }
 
+/* Marks the cells of a line that may have faces: those of components with a plate or another label beside them, and at the end of the raster. */
+static void mark_line(const mps__voids *v, int64_t begin, uint8_t *any)
+{
+    const int64_t n = v->cells[0];
+    const int32_t *own = v->label + begin;
+    const uint8_t *mask = v->mask + begin;
+    int32_t at[3];
+    mps__voids_place(v, begin, at);
+    for (int64_t c = 0; c < n; c++) any[c] = mask[c] / MPS__MASK_PLATE & 1;
+    for (int64_t c = 1; c < n - 1; c++) any[c] |= (own[c - 1] != own[c]) | (own[c + 1] != own[c]);
+    any[0] = any[n - 1] = 1;
+    for (int32_t d = 1; d < v->dim; d++) {
+        const int32_t *before = own - v->step[d], *behind = own + v->step[d];
+        if (at[d] == 0 || at[d] + 1 == v->cells[d])
+            memset(any, 1, (size_t)n);
+        else
+            for (int64_t c = 0; c < n; c++) any[c] |= (before[c] != own[c]) | (behind[c] != own[c]);
+    }
+    for (int64_t c = 0; c < n; c++) any[c] &= own[c] >= 0;
+}
+
 mps_status mps__voids_faces(mps__voids *v, const mps__world *w)
 {
+    const int64_t n = v->cells[0];
+    uint8_t *any = v->wide; /* not needed any more */
     v->faces = 0;
-    for (int64_t c = 0; v->count > 1 && c < v->band * v->plane; c++)
-        if (v->label[c] >= 0) MPS__TRY(add_faces_of(v, w, c));
+    for (int64_t begin = 0; v->count > 1 && begin < v->band * v->plane; begin += n) {
+        const uint8_t *next = any, *end = any + n;
+        mark_line(v, begin, any);
+        for (; (next = memchr(next, 1, (size_t)(end - next))) != NULL; next++)
+            MPS__TRY(add_faces_of(v, w, begin + (next - any)));
+    }
     return MPS_OK;
 }

@@ -26,7 +26,8 @@ static bool touches(const mps__voids *v, const mps__void_run *a, const mps__void
 {
     const int64_t begin = a->begin > b->begin + step ? a->begin : b->begin + step,
                   end = a->end < b->end + step ? a->end : b->end + step;
-    if (begin >= end || v->plain[(begin - step) / v->cells[0]]) return begin < end;
+    if (begin >= end || !(v->marks[(begin - step) / v->cells[0]] & MPS__MASK_PLATE))
+        return begin < end;
     for (int64_t c = begin; c < end; c++)
         if (!(v->mask[c - step] >> d & 1)) return true;
     return false;
@@ -49,16 +50,31 @@ static void join_lines(mps__voids *v, int64_t first, int64_t last, int64_t other
     }
 }
 
+/* The first cell from `from` on that is not deep, or `end`. Eight cells at once, as runs are long. */
+static const uint8_t *end_of_deep(const uint8_t *from, const uint8_t *end)
+{
+    static const uint64_t deep = MPS__CELL_DEEP * UINT64_C(0x0101010101010101);
+    for (uint64_t eight; end - from >= 8; from += 8) {
+        memcpy(&eight, from, sizeof eight);
+        if (eight != deep) break;
+    }
+    while (from < end && *from == MPS__CELL_DEEP) from++;
+    return from;
+}
+
 /* Runs of a line. */
 static mps_status find_runs(mps__voids *v, int64_t begin)
 {
     const int64_t end = begin + v->cells[0];
     const uint8_t *what = v->what, *next = what + begin;
-    const bool plain = v->plain[begin / v->cells[0]];
+    const bool cut = v->marks[begin / v->cells[0]] & MPS__MASK_PLATE;
     while ((next = memchr(next, MPS__CELL_DEEP, (size_t)(what + end - next))) != NULL) {
         mps__void_run r = {(int32_t)(next - what), (int32_t)(next - what) + 1, -1};
-        while (r.end < end && what[r.end] == MPS__CELL_DEEP && (plain || !(v->mask[r.end - 1] & 1)))
-            r.end++;
+        if (cut)
+            while (r.end < end && what[r.end] == MPS__CELL_DEEP && !(v->mask[r.end - 1] & 1))
+                r.end++;
+        else
+            r.end = (int32_t)(end_of_deep(next, what + end) - what);
         if (v->runs >= v->room.run)
             MPS__TRY(mps__grow(v->context, (void **)&v->run, &v->room.run, v->runs,
                                2 * v->runs + 64, sizeof *v->run));
@@ -174,7 +190,7 @@ static void label_runs(mps__voids *v)
     for (int64_t line = 0; line < v->band * v->plane / v->cells[0]; line++) {
         const int64_t begin = line * v->cells[0];
         int32_t *label = v->label + begin;
-        if (v->plain[line])
+        if (!(v->marks[line] & MPS__MASK_SOLID))
             memset(label, 0xff, (size_t)v->cells[0] * sizeof *label);
         else
             for (int64_t c = 0; c < v->cells[0]; c++)
@@ -233,10 +249,10 @@ static mps_status grow_first(mps__voids *v, const mps__world *w, int64_t *tail)
 {
     uint8_t *rim = v->wide; /* not needed any more */
     for (int32_t z = 0; z < v->band; z++) {
+        const uint8_t *next = rim, *end = rim + v->plane;
         mark_rim(v, z, rim);
-        for (int64_t k = 0; k < v->plane; k++) {
-            const int64_t c = z * v->plane + k;
-            if (!rim[k]) continue;
+        for (; (next = memchr(next, 1, (size_t)(end - next))) != NULL; next++) {
+            const int64_t c = z * v->plane + (next - rim);
             const int32_t label = label_beside(v, c);
             if (label >= 0 && mps__voids_is_narrow(v, w, c)) MPS__TRY(grow_into(v, c, label, tail));
         }

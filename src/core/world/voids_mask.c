@@ -73,7 +73,7 @@ static mps_status make_room(mps__voids *v)
     MPS__TRY(mps__grow(c, (void **)&v->mask, &r->mask, 0, v->total, sizeof *v->mask));
     MPS__TRY(mps__grow(c, (void **)&v->label, &r->label, 0, v->total, sizeof *v->label));
     MPS__TRY(
-        mps__grow(c, (void **)&v->plain, &r->plain, 0, v->total / v->cells[0], sizeof *v->plain));
+        mps__grow(c, (void **)&v->marks, &r->marks, 0, v->total / v->cells[0], sizeof *v->marks));
     return mps__grow(c, (void **)&v->ullage, &r->ullage, 0, v->slabs + 1, sizeof *v->ullage);
 }
 
@@ -304,12 +304,12 @@ static mps_status find_ullage(mps__voids *v)
     return status;
 }
 
-static void find_plain(mps__voids *v)
+static void find_marks(mps__voids *v)
 {
     for (int64_t line = 0; line < v->total / v->cells[0]; line++) {
         uint8_t any = 0;
         for (int64_t c = 0; c < v->cells[0]; c++) any |= v->mask[line * v->cells[0] + c];
-        v->plain[line] = !any;
+        v->marks[line] = any;
     }
 }
 
@@ -332,7 +332,7 @@ mps_status mps__voids_raster(mps__voids *v, mps__world *w)
     MPS__TRY(find_solid(v, w));
     MPS__TRY(find_spaces(v));
     MPS__TRY(find_ullage(v));
-    find_plain(v);
+    find_marks(v);
     v->solids = w->particles.solids;
     v->constant = INT32_MAX;
     v->made = true;
@@ -369,7 +369,7 @@ mps_status mps__voids_wet(mps__voids *v, mps__world *w)
     }
     memcpy(v->wet, wet, sizeof wet);
     MPS__TRY(find_ullage(v));
-    find_plain(v);
+    find_marks(v);
     v->constant = INT32_MAX;
     v->made = true;
     return MPS_OK;
