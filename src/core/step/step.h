@@ -49,6 +49,7 @@ typedef struct mps__step {
     mps__budget budget;
     double momentum[3];    /* of the prediction */
     mps__bulk bulk;        /* of the velocities that were booked last */
+    mps__bulk last;        /* at the end */
     double body_work;      /* of solids that models move */
     double lift;           /* potential energy lost by displacements */
     mps__push before_line; /* what was so before the verbs of `line` in the hook in progress */
@@ -139,6 +140,7 @@ extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns,
 
 /* Before velocities change; in MPS_LOAD; when all has been done. */
 extern const mps__pass mps__pass_begin_load, mps__pass_half_cells;
+void mps__step_load_close(mps__step *q); /* velocities are those at the end */
 void mps__step_load_end(mps__step *q);
 /* What a load is found from, arrays of a stage. */
 typedef struct mps__load_arrays {

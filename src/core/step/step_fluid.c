@@ -259,6 +259,12 @@ static void take_counts(void *step, const double *counts)
     q->info.separated = (int64_t)counts[SEPARATED];
 }
 
+static void take_last(void *step, const double *sums)
+{
+    mps__step *q = step;
+    mps__budget_take(q->w, sums, &q->last);
+}
+
 /* Mean volume deviation of inner fluid; 0 if there is none. */
 static void take_deviation(void *step, const double *sums)
 {
@@ -279,7 +285,9 @@ static mps_status keep(mps_stage *s)
     mps__host_sum_later(&w->host, s->view, COUNTS, &count_rows, &f, (mps__then){take_counts, q});
     mps__step_keep_places(w, s->data[4], s->data[5]);
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
+    mps__budget_later(w, (mps__then){take_last, q});
     mps__host_settle(&w->host);
+    mps__step_load_close(q);
     return MPS_OK;
 }
 
