@@ -273,9 +273,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {155, 175}, {36, 44}, {18, 28}, {85, 105}},
-        {"imps", 3, {162, 182}, {37, 45}, {7, 14}, {80, 100}},
-        {"mmps", 2, {148, 170}, {36, 46}, {95, 125}, {135, 175}},
+        {"imps", 2, {161, 181}, {25, 31}, {18, 28}, {28, 38}},
+        {"imps", 3, {168, 188}, {25, 32}, {7, 14}, {10, 15}},
+        {"mmps", 2, {154, 174}, {27, 34}, {95, 125}, {98, 120}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
@@ -345,6 +345,35 @@ static void searches_copy_little(void **state)
     }
 }
 
+/* Bytes of a whole step where nothing asks for fields and the solver has no set-up on the host: sums, however many particles there are. A search
+ * brings its order, 4 bytes of a particle, and sends places of walls, as many. */
+static void fields_cost_nothing(void **state)
+{
+    static const double most[2] = {4600, 5600};
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        mps_sim *sim = unwatched("imps", dim);
+        shadow s;
+        ASSERT_OK(sim, mps_solver_use(sim, "sundials.pcg", "jacobi"));
+        shadow_attach(&s, sim);
+        go(sim, 3);
+        for (int k = 0; k < 12; k++) {
+            const int64_t before = sim->world.lists.neighbours.searches;
+            ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
+            const mps_device_info i = shadow_counts(sim);
+            const double moved = sim->world.lists.neighbours.searches > before
+                                     ? 4 * (double)sim->world.particles.n
+                                     : 0;
+            print_message("%d-D, %.0f bytes of a search: %lld up, %lld down\n", (int)dim, moved,
+                          (long long)i.bytes_up, (long long)i.bytes_down);
+            assert_true((double)i.bytes_up <= moved + 1000);
+            assert_true((double)i.bytes_down > moved + 1000);
+            assert_true((double)i.bytes_down < moved + most[dim - 2]);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -358,6 +387,7 @@ int main(void)
         cmocka_unit_test(plates_hide_on_the_device),
         cmocka_unit_test(costs),
         cmocka_unit_test(searches_copy_little),
+        cmocka_unit_test(fields_cost_nothing),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

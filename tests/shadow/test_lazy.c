@@ -4,6 +4,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <math.h>
+#include <mps/body.h>
+#include <mps/couple.h>
 #include <mps/output.h>
 
 static const char *const public_fields[] = {"position",       "velocity", "pressure",
@@ -249,6 +251,33 @@ static void questions(void **state)
     }
 }
 
+/* Parts of a step that run on the host find there what no step before has brought: the added mass, a body that carries the tank. */
+static void parts_on_the_host(void **state)
+{
+    (void)state;
+    for (int k = 0; k < 4; k++) {
+        mps_sim *pair[] = {unwatched("imps", 2 + k % 2), unwatched("imps", 2 + k % 2)};
+        shadow s;
+        shadow_attach(&s, pair[1]);
+        for (int side = 0; side < 2; side++) {
+            mps_body body;
+            assert_int_equal(mps_body_init(&body, sizeof body), MPS_OK);
+            body.free = MPS_BODY_FREE(MPS_MOVE_X);
+            body.mass = 100;
+            body.stiffness[0] = 4e4;
+            body.equilibrium[0] = 0.01;
+            if (k < 2)
+                ASSERT_OK(pair[side], mps_load_watch(pair[side], MPS_LOAD_MASS));
+            else
+                ASSERT_OK(pair[side], mps_body_set(pair[side], &body));
+            go(pair[side], 12);
+        }
+        same(pair[0], pair[1]);
+        mps_sim_destroy(pair[0]);
+        mps_sim_destroy(pair[1]);
+    }
+}
+
 /* ---- failures ---- */
 
 static bool fail_now;
@@ -375,9 +404,9 @@ static void dead_devices(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fields_stay),  cmocka_unit_test(questions),
-        cmocka_unit_test(failed_steps), cmocka_unit_test(silent_between_steps),
-        cmocka_unit_test(dead_devices),
+        cmocka_unit_test(fields_stay),          cmocka_unit_test(questions),
+        cmocka_unit_test(parts_on_the_host),    cmocka_unit_test(failed_steps),
+        cmocka_unit_test(silent_between_steps), cmocka_unit_test(dead_devices),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

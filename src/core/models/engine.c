@@ -289,10 +289,11 @@ static void *address(const mps__twin *twin, const void *array)
 
 void *mps__twins_seen(mps__twins *t, const void *array)
 {
-    mps__twin *twin = t->place == MPS__ON_DEVICE && array ? find(t, array) : NULL;
+    mps__twin *twin = t->open && array ? find(t, array) : NULL;
     if (!twin) return (void *)array;
-    mps__twin_copy(t, twin, twin->host, MPS__ON_DEVICE);
-    return address(twin, array);
+    const bool is_field = twin >= t->list && twin < t->list + ALL;
+    if (is_field || t->place == MPS__ON_DEVICE) mps__twin_copy(t, twin, twin->host, t->place);
+    return t->place == MPS__ON_DEVICE ? address(twin, array) : (void *)array;
 }
 
 void *mps__twins_given(mps__twins *t, void *array, bool all)

@@ -34,10 +34,15 @@ bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x,
                            const double *searched, double re_far)
 {
     double worst = 0;
-    if (!l->valid || n != l->n || re_far != l->re_far) return false;
+    if (!mps__neighbours_within(l, n, re_far, 0)) return false;
     mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, searched, l->ghost}, NULL,
                     &worst);
-    return worst < 0.25 * l->skin * l->skin;
+    return mps__neighbours_within(l, n, re_far, worst);
+}
+
+bool mps__neighbours_within(const mps_neighbours *l, int64_t n, double re_far, double square)
+{
+    return l->valid && n == l->n && re_far == l->re_far && square < 0.25 * l->skin * l->skin;
 }
 
 /* ---- memory ---------------------------------------------------------------------------------------------------- */

@@ -77,6 +77,7 @@ mps_status mps__world_populate(mps__world *w)
     MPS__TRY(mps__world_fetch(w));
     open_stage(w, &s, &v);
     w->particles.changes++; /* verbs may write fields */
+    w->ahead.holds = false;
     w->host.entries = 0;
     w->host.leaving = false;
     MPS__TRY(mps__host_run(&w->host, &s, &v, MPS_POPULATE));

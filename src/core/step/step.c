@@ -49,6 +49,11 @@ static void commit(mps__step *q)
     memcpy(w->state.reaction, q->reaction, sizeof q->reaction);
     w->state.budget.last = q->last;
     w->booked = w->particles.changes;
+    memcpy(w->ahead.most, q->ahead, sizeof q->ahead);
+    /* bodies move in the tank; without a device nothing was asked */
+    w->ahead.changes = w->host.twins.last.launches > 0 && !w->work.bodies ? w->particles.changes
+                                                                          : -1;
+    w->ahead.searches = w->lists.neighbours.searches;
     w->state.budget.deviation = q->deviation;
     if (!w->state.budget.started) {
         w->state.budget.started = true;
@@ -169,6 +174,7 @@ static mps_status leave_device(mps__world *w)
     const mps__twins *t = &w->host.twins;
     char why[MPS__ERROR_SIZE];
     const mps_status status = mps__twins_close(&w->host.twins);
+    w->ahead.holds = false;
     if (status == MPS_OK) return MPS_OK;
     if (t->torn) w->lists.neighbours.torn = true;
     memcpy(why, w->context->error, sizeof why);
@@ -188,6 +194,8 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__step_book_between(w));
     mps__twins_begin(&w->host.twins);
+    w->ahead.holds = w->ahead.changes == w->particles.changes &&
+                     w->ahead.searches == w->lists.neighbours.searches;
     mps_status status = prepare(w);
     if (status < 0) {
         leave_device(w);

@@ -7,6 +7,8 @@
 static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
+    w->particles.changes++;
+    w->ahead.holds = false;
     w->ghosts.known -= count;
     w->particles.generation++;
     w->lists.aside += count;
@@ -111,6 +113,47 @@ MPS_ROW void note_outside(const int dim, const mps_view *v, const box *f, int64_
 }
 MPS_SUMS(any_outside, note_outside, box)
 
+/* Of the next step: fluid outside, ways since the search, speeds. */
+typedef struct aheads {
+    box box;
+    const double *searched, *u;
+} aheads;
+
+MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
+{
+    double way = 0, speed = 0;
+    for (int d = 0; d < dim; d++) {
+        const double m = v->x[i * dim + d] - f->searched[i * dim + d], u = f->u[i * dim + d];
+        way += m * m;
+        speed += u * u;
+    }
+    if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
+    if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
+    if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
+}
+MPS_SUMS(raise_aheads, raise_ahead, aheads)
+
+static void take_ahead(void *to, const double *most)
+{
+    memcpy(to, most, MPS__AHEADS * sizeof *most);
+}
+
+void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
+{
+    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
+                .u = mps__seen(w, w->particles.u)};
+    mps_view v;
+    for (int d = 0; d < 3; d++) {
+        f.box.lo[d] = -INFINITY;
+        f.box.hi[d] = INFINITY;
+    }
+    mps__world_domain(w, f.box.lo, f.box.hi);
+    mps__world_view(w, &v);
+    mps__motion_view(&w->motion, pose, &v.tank);
+    mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
+                        (mps__then){take_ahead, most});
+}
+
 /* Whether any liquid is outside, where the device of a step has the particles. */
 static mps_status look_out_there(mps__world *w, const mps_view *v, const box *b, bool *any)
 {
@@ -126,10 +169,11 @@ mps_status mps__world_leave_domain(mps__world *w)
     box b = {.gone = NULL};
     bool any = true;
     mps_view v;
+    if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
     MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* bodies move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
-    if (mps__world_there(w)) MPS__TRY(look_out_there(w, &v, &b, &any));
+    if (!w->ahead.holds && mps__world_there(w)) MPS__TRY(look_out_there(w, &v, &b, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     b.gone = w->work.gone;

@@ -23,6 +23,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__bounds_init(&w->bounds, context);
     mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
+    w->ahead.changes = w->booked = -1;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
@@ -135,6 +136,7 @@ double mps__world_speed(mps__world *w)
 {
     mps_view v;
     double most = 0;
+    if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
     mps__world_view(w, &v);
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
     mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){mps__seen(w, w->particles.u)}, &most);

@@ -129,6 +129,16 @@ typedef struct mps__lists {
     int64_t orders;    /* how often particles were put in order */
 } mps__lists;
 
+/* What a step on a device tells the next one, in its last copy: whether fluid is outside of the domain, the square of the longest way since the
+ * search, the square of the largest speed. It holds for the same particles and the same search. */
+enum { MPS__AHEAD_OUTSIDE, MPS__AHEAD_WAY, MPS__AHEAD_SPEED, MPS__AHEADS };
+typedef struct mps__ahead {
+    double most[MPS__AHEADS];
+    int64_t changes,
+        searches; /* of the particles, of the lists, at the end of the step; -1: nothing is told */
+    bool holds;   /* in the step in progress */
+} mps__ahead;
+
 /* What stands aside while the store has particles of all ranks; gather.h. */
 typedef struct mps__gathered {
     bool begun; /* by the user */
@@ -193,7 +203,8 @@ typedef struct mps__world {
     mps_step_info info;   /* of the last step */
     mps__load load;
     mps__mass mass;
-    bool ending;    /* dt_max of a step is what is left of a run */
+    bool ending; /* dt_max of a step is what is left of a run */
+    mps__ahead ahead;
     int64_t booked; /* mps__particles.changes when the last step summed state.budget.last */
 } mps__world;
 
@@ -226,6 +237,8 @@ void mps__world_view(const mps__world *w, mps_view *v);
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Room for all particles in arrays of a step that are no channels. */
 mps_status mps__world_reserve(mps__world *w);
+/* Ask for what the next step wants to know, with the tank at a pose; known after mps__host_settle(). lost.c */
+void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS]);
 /* Remove fluid outside of the domain, or behind walls, as the policy says. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);

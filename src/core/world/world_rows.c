@@ -204,6 +204,10 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
     const mps_neighbours *l = &w->lists.neighbours;
     const mps__particles *s = &w->particles;
     const bool there = mps__world_there(w) && mps__world_rows_there(w);
+    if (there && w->ahead.holds) {
+        *fresh = mps__neighbours_within(l, s->n, w->setup.re_far, w->ahead.most[MPS__AHEAD_WAY]);
+        return MPS_OK;
+    }
     if (there)
         MPS__TRY(mps__twins_enter(&w->host.twins));
     else
