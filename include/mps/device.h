@@ -137,17 +137,17 @@ typedef struct mps_device_info {
     int64_t bytes_held;
 } mps_device_info;
 
-/** Run the steps of this handle on a device from now on; NULL: on the host. After a step the fields
- *  of the particles stay on the device; what asks for some, a lease, a probe, a frame, a checkpoint,
- *  waits for them. If the device fails then, that call returns MPS_E_PLUGIN and may be repeated. If
- *  it fails in a step for good, the state is lost where the device had it alone: steps and all that
- *  needs fields return MPS_E_PLUGIN with the time of the state, until mps_checkpoint_read() or
- *  mps_snapshot_restore() brings another one. So does this function, which needs the fields.
- *
- *  A call of the step without loops for devices runs on the host, with copies of the arrays that it
- *  reads and writes; the log names it once. Verbs of models outside the library always run on the host, and so does
+/** Run the steps of this handle on a device from now on; NULL: on the host. A call of the step
+ *  without loops for devices runs on the host, with copies of the arrays that it reads and writes;
+ *  the log names it once. Verbs of models outside the library always run on the host, and so does
  *  the whole step with a kernel function of the user, mps_kernel_custom(). Results have the same
  *  bytes either way.
+ *
+ *  After a step the fields of the particles stay on the device; what asks for some of them, as a
+ *  lease, a probe, a frame or a checkpoint does, waits for these. If the device fails then, that
+ *  call returns MPS_E_PLUGIN and may be repeated. If it fails in a step for good, fields that it
+ *  had alone are lost: steps and all that needs fields return MPS_E_PLUGIN with the time of the
+ *  state, this function too, until mps_checkpoint_read() or mps_snapshot_restore() brings another.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_BUSY (a lease is open),
  *  MPS_E_STATE (the handle has more than one rank: not supported), MPS_E_NOMEM, MPS_E_PLUGIN (the
  *  device does not open, or the one before does not give the fields); the handle is as before */
