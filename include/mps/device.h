@@ -114,7 +114,7 @@ typedef struct mps_device_ops {
     void (*end)(void *self);
 } mps_device_ops;
 
-/** What a device did in the last step that succeeded. */
+/** What a device did in the last step that succeeded, and which fields have come since. */
 typedef struct mps_device_info {
     /** Set by mps_device_info_init(), or sizeof(mps_device_info). */
     uint32_t struct_size;
@@ -143,9 +143,15 @@ typedef struct mps_device_info {
  *  the log names it once. Verbs of models outside the library always run on the host, and so does
  *  the whole step with a kernel function of the user, mps_kernel_custom(). Results have the same
  *  bytes either way.
+ *
+ *  After a step the fields of the particles stay on the device; what asks for some of them, as a
+ *  lease, a probe, a frame or a checkpoint does, waits for these. If the device fails then, that
+ *  call returns MPS_E_PLUGIN and may be repeated. If it fails in a step for good, fields that it
+ *  had alone are lost: steps and all that needs fields return MPS_E_PLUGIN with the time of the
+ *  state, this function too, until mps_checkpoint_read() or mps_snapshot_restore() brings another.
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_BUSY (a lease is open),
  *  MPS_E_STATE (the handle has more than one rank: not supported), MPS_E_NOMEM, MPS_E_PLUGIN (the
- *  device does not open); the handle is as before then */
+ *  device does not open, or the one before does not give the fields); the handle is as before */
 MPS_API mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops);
 
 /** Set struct_size and zero. @param size  sizeof(mps_device_info) @return MPS_E_ARG: bad size */

@@ -165,6 +165,7 @@ static int upload(void *self, void *to, const void *from, uint64_t bytes)
     shadow *s = self;
     const int k = room_of(s, to);
     assert_true(k >= 0 && room_of(s, from) < 0);
+    if (s->dead) return fails(s);
     s->uploads++;
     protect(s, k, PROT_READ | PROT_WRITE);
     memcpy(to, from, bytes);
@@ -178,7 +179,7 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
     const int k = room_of(s, from);
     assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
-    if (s->downloads == s->loses_at) {
+    if (s->dead || s->downloads == s->loses_at) {
         memset(to, 0x55, bytes); /* what a copy that failed has left is anything */
         return fails(s);
     }
@@ -193,6 +194,7 @@ static int clear(void *self, void *to, uint64_t bytes)
     shadow *s = self;
     const int k = room_of(s, to);
     assert_true(k >= 0);
+    if (s->dead) return fails(s);
     protect(s, k, PROT_READ | PROT_WRITE);
     memset(to, 0, bytes);
     protect(s, k, PROT_NONE);
@@ -204,6 +206,7 @@ static int copy(void *self, void *to, const void *from, uint64_t bytes)
     shadow *s = self;
     const int a = room_of(s, to), b = room_of(s, from);
     assert_true(a >= 0 && b >= 0);
+    if (s->dead) return fails(s);
     protect(s, a, PROT_READ | PROT_WRITE);
     protect(s, b, PROT_READ | PROT_WRITE);
     memcpy(to, from, bytes);
@@ -263,17 +266,26 @@ static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
     protect_all(s, PROT_NONE);
 }
 
+/* Whether the next launch fails, or any from now on. */
+static bool stops(shadow *s)
+{
+    s->dead = s->dead || (s->dies_at > 0 && s->launches + 1 >= s->dies_at);
+    return s->dead || (s->fails_at > 0 && s->launches + 1 >= s->fails_at);
+}
+
 static int rows(void *self, const mps_launch *l)
 {
     shadow *s = self;
-    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return fails(s);
+    if (stops(s)) return fails(s);
     run(s, l, NULL, NULL);
     return 0;
 }
 
 static int values(void *self, const mps_launch *l, mps_exact *sum, double *maximum)
 {
-    run(self, l, sum, maximum);
+    shadow *s = self;
+    if (s->dead) return fails(s);
+    run(s, l, sum, maximum);
     return 0;
 }
 
@@ -285,7 +297,7 @@ static int gather(void *self, const mps_launch *l, void *to)
     const int k = room_of(s, to);
     assert_true(k >= 0);
     for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
-    if (s->fails_at > 0 && s->launches + 1 >= s->fails_at) return fails(s);
+    if (stops(s)) return fails(s);
     run(s, l, sum, maximum);
     protect(s, k, PROT_READ | PROT_WRITE);
     memcpy(to, sum, (size_t)l->sums * sizeof *sum);
@@ -296,8 +308,8 @@ static int gather(void *self, const mps_launch *l, void *to)
 
 static int wait_for(void *self)
 {
-    (void)self;
-    return 0;
+    shadow *s = self;
+    return s->dead ? fails(s) : 0;
 }
 
 static const char *failure(void *self)

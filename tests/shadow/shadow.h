@@ -14,8 +14,10 @@ typedef struct shadow {
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
     bool refuses;                         /* there is no room */
+    bool dead;                            /* all fails that may */
     const char *why;                      /* what failed last; other calls forget it */
     int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
+    int64_t dies_at;                      /* launch from which on all does */
     char *arena, *arena_end;              /* memory of all rooms; NULL: there are none */
     int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
     struct {

@@ -44,6 +44,8 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
             return mps__fail(c, MPS_E_BUSY, "field \"%s\" is leased for writing",
                              sim->world.particles.field[k].name);
     mps__ranks *r = &sim->world.ranks;
+    MPS__TRY(mps__world_fetch(&sim->world));
+    MPS__TRY(mps__world_fetch_searched(&sim->world));
     MPS__TRY(mps__ranks_tell(r, mps__gather_all(&sim->world)));
     const mps_status status = r->rank == 0 ? save_all(sim, path) : MPS_OK;
     mps__gather_end(&sim->world);
@@ -66,7 +68,7 @@ static mps_status check_setup(mps_sim *sim, const mps__archive *a)
 
 mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
 {
-    MPS__CHANGES(sim);
+    MPS__STEPS(sim); /* all fields are replaced, also those that a device has alone */
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     const int32_t open = mps__particles_leases(&sim->world.particles);

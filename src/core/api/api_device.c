@@ -13,6 +13,8 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     if (ops && w->ranks.count > 1)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the handle has %d ranks: a device is for one rank", (int)w->ranks.count);
+    /* a new search needs none of the last one */
+    if (mps__world_fetch_lists(w) < 0) w->lists.neighbours.valid = false;
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
     mps__ppe_leave(&w->ppe, &w->host.twins.device);
     return mps__twins_attach(&w->host.twins, ops);

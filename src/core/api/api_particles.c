@@ -349,6 +349,7 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
         return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field,
                          f->writer ? "writing" : "reading");
+    MPS__TRY(mps__world_fetch_field(&sim->world, *f->data));
     const mps_lease open = lease_of(&sim->world.particles, f, mode);
     MPS__TRY(mps__struct_out(c, "mps_lease", lease, &open, sizeof open));
     if (mode == MPS_WRITE)

@@ -146,7 +146,7 @@ mps_status mps_momentum_get(mps_sim *sim, mps_momentum *momentum)
     MPS__MEASURES(sim);
     mps_momentum now;
     MPS__TRY(mps__world_adopt(&sim->world));
-    mps__momentum_measure(&sim->world, &now);
+    MPS__TRY(mps__momentum_measure(&sim->world, &now));
     MPS__TRY(mps__ranks_status(&sim->world.ranks));
     return mps__struct_out(&sim->context, "mps_momentum", momentum, &now, sizeof now);
 }

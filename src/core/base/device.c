@@ -179,6 +179,13 @@ void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes)
     d->info.launches++;
 }
 
+void mps__device_wait(mps__device *d)
+{
+    if (d->failed || !mps__device_there(d)) return;
+    note(d, d->ops.wait(d->ops.self));
+    d->info.waits++;
+}
+
 void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number)
 {
     if (d->ops.outdated && bytes > 0) d->ops.outdated(d->ops.self, array, bytes, (uint32_t)number);

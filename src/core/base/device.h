@@ -56,6 +56,8 @@ void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes
 void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_clear(mps__device *d, void *to, size_t bytes);
 void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes);
+/* Until all work that was asked for is done. */
+void mps__device_wait(mps__device *d);
 /* These values, numbers of 1, 4 or 8 bytes, are not read any more, at either place. */
 void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number);
 /* Rows, sums and maxima of a launch whose struct_size and file are set here; none if n is 0. */

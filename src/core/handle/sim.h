@@ -62,10 +62,11 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
         MPS__TRY(mps__sim_divided((sim), __func__));             \
     } while (0)
 /* one that may change any field of the particles, or one that reads more than single values of a simulation. */
-#define MPS__CHANGES(sim)                 \
-    do {                                  \
-        MPS__STEPS(sim);                  \
-        (sim)->world.particles.changes++; \
+#define MPS__CHANGES(sim)                          \
+    do {                                           \
+        MPS__STEPS(sim);                           \
+        MPS__TRY(mps__world_fetch(&(sim)->world)); \
+        (sim)->world.particles.changes++;          \
     } while (0)
 /* Refuse geometry where ranks have divided the particles: it looks at all that is there. */
 static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)
@@ -89,6 +90,7 @@ static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)
         MPS__READS(sim);                             \
         MPS__TRY(mps__sim_divided((sim), __func__)); \
     } while (0)
+/* One that tells what a simulation knows without a look at its particles. */
 #define MPS__READS(sim)                                           \
     do {                                                          \
         if (!(sim)) return MPS_E_ARG;                             \

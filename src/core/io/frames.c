@@ -385,6 +385,7 @@ mps_status mps_frames_write(mps_frames *frames)
                          f->pieces ? "frames in pieces: call mps_particles_gather_end() first"
                                    : "the frames of many ranks: call mps_particles_gather() "
                                      "first, or open them with MPS_FRAMES_PIECES");
+    MPS__TRY(mps__world_fetch(w));
     if (f->pieces) return write_own_piece(f);
     return w->ranks.rank == 0 ? write_whole(f) : MPS_OK;
 }

@@ -113,6 +113,8 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
         if (w->particles.field[f].writer)
             return mps__fail(w->context, MPS_E_BUSY, "field \"%s\" is leased for writing",
                              w->particles.field[f].name);
+    MPS__TRY(mps__world_fetch(w));
+    MPS__TRY(mps__world_fetch_searched(w));
     k->taken = false;
     MPS__TRY(mps__ranks_tell(&w->ranks, reserve(k)));
     take_particles(k);
@@ -171,11 +173,12 @@ static arrival compare(const mps_snapshot *k)
     mps__world *w = &k->sim->world;
     const mps__particles *s = &w->particles;
     const mps_neighbours *l = &w->lists.neighbours;
+    const bool here = mps__world_fetch_searched(w) == MPS_OK;
     enum { STORE, LISTS, THINGS };
     bool other[THINGS];
     other[STORE] = k->n != s->n || k->generation != s->generation || k->orders != w->lists.orders ||
                    k->known != w->ghosts.known || w->lists.listed_at || fields_of(s) != s->fields;
-    other[LISTS] = other[STORE] || !k->listed || !l->valid ||
+    other[LISTS] = other[STORE] || !k->listed || !l->valid || !here ||
                    memcmp(k->searched, l->searched, (size_t)(k->n * s->dim) * sizeof(double)) != 0;
     mps__world_any(w, THINGS, other);
     return (arrival){.same = !other[STORE], .lists = !other[LISTS]};
@@ -259,6 +262,8 @@ static void restore_particles(mps_snapshot *k, const arrival *a)
         copy_fields(k);
     else
         fill_store(k);
+    s->changes++;
+    mps__twins_forget(&w->host.twins);
     s->next_id = k->next_id;
     s->written = k->written;
     w->lists.linked = k->linked ? s->solids : -1;
@@ -276,7 +281,7 @@ mps_status mps_snapshot_restore(mps_snapshot *snapshot)
     if (!snapshot) return MPS_E_ARG;
     mps_snapshot *k = snapshot;
     mps_sim *sim = k->sim;
-    MPS__CHANGES(sim);
+    MPS__STEPS(sim); /* all fields are replaced, also those that a device has alone */
     mps__world *w = &sim->world;
     if (!k->taken) return not_taken(k, __func__);
     const int32_t open = mps__particles_leases(&w->particles);

@@ -85,7 +85,8 @@ static mps_status add_half_cells(const mps__world *w, double *volume)
 {
     const mps__particles *s = &w->particles;
     const mps_neighbours *l = &w->lists.neighbours;
-    const bool kept = l->valid && l->n == s->n && w->lists.listed == s->generation;
+    const bool kept = l->valid && !l->torn && l->n == s->n && w->lists.listed == s->generation;
+    if (kept) MPS__TRY(mps__world_fetch_lists(w));
     if (w->state.step == 0 || (kept && !w->gathered.swapped)) {
         *volume += half_cells(w, l);
         return MPS_OK;
@@ -109,7 +110,8 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
         MPS__TRY(mps__particles_leases(&w->particles) ? mps__world_neighbours_kept(w)
                                                       : mps__world_neighbours(w));
     mps__budget b = w->state.budget;
-    mps__budget_update(w, &b);
+    MPS__TRY(mps__world_fetch(w));
+    MPS__TRY(mps__budget_update(w, &b));
     *e = (mps_energy){.struct_size = sizeof *e,
                       .kinetic = b.last.kinetic,
                       .potential = b.last.potential,
@@ -136,12 +138,13 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     return mps__ranks_status(&w->ranks);
 }
 
-void mps__momentum_measure(const mps__world *w, mps_momentum *m)
+mps_status mps__momentum_measure(const mps__world *w, mps_momentum *m)
 {
     mps__budget b = w->state.budget;
-    mps__budget_update(w, &b);
+    MPS__TRY(mps__budget_update(w, &b));
     *m = b.momentum;
     m->struct_size = sizeof *m;
     memcpy(m->total, b.last.momentum, sizeof m->total);
     for (int d = 0; d < w->setup.dim; d++) m->numerical[d] = m->pressure[d] - m->walls[d];
+    return MPS_OK;
 }

@@ -95,6 +95,7 @@ mps_status mps__fluid_measure(const mps__world *w, const mps_probe *c, double *v
     moments m = {.low = INFINITY, .high = -INFINITY, .nearest2 = INFINITY};
     about *list = NULL;
     int64_t count = 0;
+    MPS__TRY(mps__world_fetch(w));
     const mps_status status = find_about(w, c, &list, &count);
     if (count > 0) qsort(list, (size_t)count, sizeof *list, compare_id);
     for (int64_t k = 0; k < count; k++) {

@@ -405,6 +405,9 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
     case MPS_PROBE_FLUID_PRESSURE:
         return mps__fluid_measure(w, &p->config, values);
     default:
+        MPS__TRY(mps__world_fetch_field(w, w->particles.x));
+        MPS__TRY(mps__world_fetch_field(w, w->particles.area));
+        MPS__TRY(mps__world_fetch_field(w, w->particles.load));
         measure_force(w, p, values);
         return MPS_OK;
     }

@@ -39,6 +39,6 @@ mps_status mps__probes_take(mps__world *w, mps__probes *p);
 /* Unit vectors across a direction of unit length: along lattice axes if that is. */
 void mps__probe_across(int32_t dim, const double direction[3], double out[2][3]);
 mps_status mps__energy_measure(mps__world *w, mps_energy *e);
-void mps__momentum_measure(const mps__world *w, mps_momentum *m);
+mps_status mps__momentum_measure(const mps__world *w, mps_momentum *m);
 
 #endif

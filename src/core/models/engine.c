@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Arrays of a step at two places. */
-#include "engine.h"
+#include "engine_twin.h"
 #include "later.h"
 #include <string.h>
 
 enum {
-    FIELDS = MPS__CHANNELS, /* where they begin in the list */
+    FIELDS = MPS__TWIN_FIELDS,
     ALL = MPS__CHANNELS + MPS__FIELDS_MAX,
     /* constants: settings of each model, then those of the world */
     VISCOSITIES = MPS__MODELS_ACTIVE * MPS__SETTINGS,
@@ -24,7 +24,7 @@ static mps__twin *twin_of_field(mps__twins *t, const void *array)
 }
 
 /* The twin of a channel; NULL: it has none. Places and areas of solids are fields of the particles where no model writes them. */
-static mps__twin *twin_of(mps__twins *t, int32_t channel)
+mps__twin *mps__twin_of(mps__twins *t, int32_t channel)
 {
     if (channel < 0) return NULL;
     const mps__field *f = mps__channels_field(t->channels, t->particles, channel);
@@ -36,28 +36,23 @@ static mps__twin *twin_of(mps__twins *t, int32_t channel)
     return twin ? twin : &t->list[channel];
 }
 
-static void *host_array(const mps__twins *t, int32_t channel)
-{
-    return mps__channels_array(t->channels, t->particles, channel);
-}
-
 /* These values are not read any more. */
 static void outdate(mps__twins *t, const mps__twin *twin, void *array)
 {
     mps__device_outdate(&t->device, array, twin->bytes, twin->number);
 }
 
-static void give_back(mps__twins *t, mps__twin *twin)
+void mps__twin_give_back(mps__twins *t, mps__twin *twin)
 {
+    mps__device_leave(&t->device, &twin->spare);
     if (twin->room > 0) mps__device_give(&t->device, twin->data, twin->room);
     *twin = (mps__twin){0};
 }
 
-/* Room for `bytes`; what it held is gone. */
-static mps_status fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t number)
+mps_status mps__twin_fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t number)
 {
     if (bytes > twin->room) {
-        give_back(t, twin);
+        mps__twin_give_back(t, twin);
         twin->data = mps__device_room(&t->device, bytes);
         if (!twin->data) return MPS_E_NOMEM;
         twin->room = bytes;
@@ -69,7 +64,7 @@ static mps_status fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t numbe
     return MPS_OK;
 }
 
-static void copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
+void mps__twin_copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
 {
     if (twin->bytes == 0 || !twin->old[place]) return;
     if (place == MPS__ON_DEVICE)
@@ -86,8 +81,7 @@ static bool is_list(const mps__twins *t, const mps__twin *twin)
     return twin >= t->block && twin < t->block + MPS__LASTING;
 }
 
-/* The values at a place have changed; `all`: all of them. */
-static void change(mps__twins *t, mps__twin *twin, void *host, int32_t place, bool all)
+void mps__twin_change(mps__twins *t, mps__twin *twin, void *host, int32_t place, bool all)
 {
     const int32_t other = place == MPS__ON_HOST ? MPS__ON_DEVICE : MPS__ON_HOST;
     const bool was_old = twin->old[other];
@@ -114,13 +108,12 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
 void mps__twins_free(mps__twins *t)
 {
     if (!t->channels) return; /* no memory before anything had begun */
-    for (int32_t k = 0; k < ALL; k++) give_back(t, &t->list[k]);
-    for (int32_t k = 0; k < MPS__BLOCKS; k++) give_back(t, &t->block[k]);
-    for (int32_t k = 0; k < MPS__SCRATCH; k++) give_back(t, &t->scratch[k]);
-    give_back(t, &t->order);
-    give_back(t, &t->moved);
-    give_back(t, &t->results);
-    give_back(t, &t->constants);
+    for (int32_t k = 0; k < ALL; k++) mps__twin_give_back(t, &t->list[k]);
+    for (int32_t k = 0; k < MPS__BLOCKS; k++) mps__twin_give_back(t, &t->block[k]);
+    for (int32_t k = 0; k < MPS__SCRATCH; k++) mps__twin_give_back(t, &t->scratch[k]);
+    mps__twin_give_back(t, &t->order);
+    mps__twin_give_back(t, &t->results);
+    mps__twin_give_back(t, &t->constants);
     if (t->constant) mps__free(t->device.context, t->constant);
     mps__device_end(&t->device);
     mps__twins_init(t, t->channels, t->particles, t->parallel);
@@ -158,11 +151,11 @@ static size_t number_of(const mps__twins *t, int32_t channel)
 /* Room for the values of a channel, which are on the host. */
 static mps_status open_twin(mps__twins *t, int32_t channel)
 {
-    mps__twin *twin = twin_of(t, channel);
+    mps__twin *twin = mps__twin_of(t, channel);
     if (!twin || twin->bytes > 0) return MPS_OK;
     const size_t bytes = (size_t)t->particles->n *
                          mps__channels_bytes(t->channels, t->particles, channel);
-    MPS__TRY(fit(t, twin, bytes, number_of(t, channel)));
+    MPS__TRY(mps__twin_fit(t, twin, bytes, number_of(t, channel)));
     outdate(t, twin, twin->data);
     return MPS_OK;
 }
@@ -175,7 +168,7 @@ static mps_status open_fields(mps__twins *t)
         mps__twin *twin = &t->list[FIELDS + k];
         const size_t bytes = (size_t)t->particles->n * (size_t)f->components * f->size;
         if (t->changes != t->particles->changes || twin->bytes != bytes) {
-            MPS__TRY(fit(t, twin, bytes, f->size));
+            MPS__TRY(mps__twin_fit(t, twin, bytes, f->size));
             outdate(t, twin, twin->data);
         }
         twin->host = *f->data;
@@ -188,7 +181,7 @@ static mps_status open_fields(mps__twins *t)
 static mps_status open_constants(mps__twins *t)
 {
     if (t->constants.room > 0) return MPS_OK;
-    MPS__TRY(fit(t, &t->constants, CONSTANTS * sizeof(double), sizeof(double)));
+    MPS__TRY(mps__twin_fit(t, &t->constants, CONSTANTS * sizeof(double), sizeof(double)));
     memset(t->constant, 0, CONSTANTS * sizeof(double));
     mps__device_clear(&t->device, t->constants.data, t->constants.bytes);
     return MPS_OK;
@@ -197,7 +190,6 @@ static mps_status open_constants(mps__twins *t)
 void mps__twins_begin(mps__twins *t)
 {
     t->step = mps__device_there(&t->device);
-    t->lost = t->torn = false;
     if (t->step) mps__device_begin(&t->device);
 }
 
@@ -217,51 +209,13 @@ mps_status mps__twins_leave(mps__twins *t)
     return mps__device_status(&t->device);
 }
 
-/* One field, by way of another room, which is that of the field before from then on. Places of walls are others now: they are copied. */
-static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field *f,
-                                const int32_t *order)
-{
-    const mps__twin before = *twin;
-    if (f->data == (void **)&t->particles->wall_of) twin->old[MPS__ON_DEVICE] = true;
-    if (twin->old[MPS__ON_DEVICE] || twin->bytes == 0) return MPS_OK;
-    MPS__TRY(fit(t, &t->moved, twin->room, twin->number));
-    mps__particles_gather(t->parallel, t->moved.data, twin->data, t->particles->n, order,
-                          (size_t)f->components * f->size);
-    twin->data = t->moved.data;
-    twin->room = t->moved.room;
-    t->moved.data = before.data;
-    t->moved.room = before.room;
-    return MPS_OK;
-}
-
-mps_status mps__twins_permute(mps__twins *t, int64_t changes, const int32_t *order,
-                              const int32_t *there)
-{
-    mps__particles *s = t->particles;
-    mps_status status = MPS_OK;
-    if (!t->step || t->changes != changes || s->changes == changes || s->n == 0) return MPS_OK;
-    t->changes = -1; /* in case of failure */
-    if (!there) {
-        MPS__TRY(fit(t, &t->order, (size_t)s->n * sizeof *order, sizeof *order));
-        mps__device_upload(&t->device, t->order.data, order, t->order.bytes);
-        there = t->order.data;
-    }
-    t->changes = s->changes;
-    MPS__TRY(mps__twins_enter(t));
-    for (int32_t k = 0; k < s->fields && status == MPS_OK; k++)
-        status = permute_field(t, &t->list[FIELDS + k], &s->field[k], there);
-    if (status < 0) t->changes = -1;
-    MPS__TRY(mps__twins_leave(t));
-    return status;
-}
-
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!t->step) return MPS_OK;
     for (int32_t k = 0; k < FIELDS; k++) t->list[k].bytes = 0;
     MPS__TRY(open_constants(t));
-    MPS__TRY(fit(t, &t->results, MPS__LATER_ROOM + sizeof(double), sizeof(double)));
+    MPS__TRY(mps__twin_fit(t, &t->results, MPS__LATER_ROOM + sizeof(double), sizeof(double)));
     MPS__TRY(open_fields(t));
     for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT]; k++)
         for (int32_t u = 0; u < p->call[k].use_count; u++)
@@ -279,38 +233,24 @@ mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t co
     if (!t->open || !host || count == 0) return MPS_OK;
     /* lists grow a little from step to step */
     const size_t bytes = (size_t)count * number;
-    if (bytes > twin->room) MPS__TRY(fit(t, twin, bytes + bytes / 8, number));
-    MPS__TRY(fit(t, twin, bytes, number));
+    if (bytes > twin->room) MPS__TRY(mps__twin_fit(t, twin, bytes + bytes / 8, number));
+    MPS__TRY(mps__twin_fit(t, twin, bytes, number));
     twin->host = host;
     twin->old[MPS__ON_DEVICE] = values;
     outdate(t, twin, twin->data);
     return MPS_OK;
 }
 
-/* Whether candidates were found at the device, and have not come to the host. Rows that change there later are another parting of the same
- * candidates, which the host does not need. */
-static bool searched_there(const mps__twins *t)
-{
-    const mps__twin *rim = &t->block[MPS__RIM_ROWS];
-    return rim->bytes > 0 && rim->old[MPS__ON_HOST];
-}
-
 mps_status mps__twins_close(mps__twins *t)
 {
     if (!t->step) return MPS_OK;
     mps__twins_go(t, MPS__ON_HOST);
-    mps__twins_fields_ready(t);
-    if (searched_there(t)) mps__twins_rows_ready(t);
     for (int32_t k = MPS__LASTING; k < MPS__BLOCKS; k++) t->block[k].bytes = 0;
-    t->lost = t->device.failed && searched_there(t);
-    if (t->device.failed) {
-        mps__twins_rows_drop(t);
-        t->changes = -1;
-    }
+    if (t->device.failed) mps__twins_rows_lose(t);
     t->last = t->device.info;
     t->open = t->step = false;
     const mps_status status = mps__device_status(&t->device);
-    t->device.failed = false; /* the host goes on alone */
+    t->device.failed = false; /* it may have been this once */
     return status;
 }
 
@@ -349,18 +289,19 @@ static void *address(const mps__twin *twin, const void *array)
 
 void *mps__twins_seen(mps__twins *t, const void *array)
 {
-    mps__twin *twin = t->place == MPS__ON_DEVICE && array ? find(t, array) : NULL;
+    mps__twin *twin = t->open && array ? find(t, array) : NULL;
     if (!twin) return (void *)array;
-    copy(t, twin, twin->host, MPS__ON_DEVICE);
-    return address(twin, array);
+    const bool is_field = twin >= t->list && twin < t->list + ALL;
+    if (is_field || t->place == MPS__ON_DEVICE) mps__twin_copy(t, twin, twin->host, t->place);
+    return t->place == MPS__ON_DEVICE ? address(twin, array) : (void *)array;
 }
 
 void *mps__twins_given(mps__twins *t, void *array, bool all)
 {
     mps__twin *twin = t->open && array ? find(t, array) : NULL;
     if (!twin) return array;
-    if (!all) copy(t, twin, twin->host, t->place);
-    change(t, twin, twin->host, t->place, all);
+    if (!all) mps__twin_copy(t, twin, twin->host, t->place);
+    mps__twin_change(t, twin, twin->host, t->place, all);
     return t->place == MPS__ON_DEVICE ? address(twin, array) : array;
 }
 
@@ -424,7 +365,7 @@ void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v)
 void *mps__twins_room(mps__twins *t, int32_t block, size_t bytes)
 {
     mps__twin *twin = &t->scratch[block];
-    if (fit(t, twin, bytes > 0 ? bytes : sizeof(double), sizeof(double)) < 0) return NULL;
+    if (mps__twin_fit(t, twin, bytes > 0 ? bytes : sizeof(double), sizeof(double)) < 0) return NULL;
     return twin->data;
 }
 
@@ -433,54 +374,4 @@ void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes)
     void *room = mps__twins_room(t, block, bytes);
     if (room) mps__device_clear(&t->device, room, t->scratch[block].bytes);
     return room;
-}
-
-/* ---- values ---- */
-
-void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place)
-{
-    mps__twin *twin = t->open ? twin_of(t, channel) : NULL;
-    if (twin) copy(t, twin, host_array(t, channel), place);
-}
-
-void mps__twins_fields_ready(mps__twins *t)
-{
-    for (int32_t k = 0; t->open && k < t->particles->fields; k++)
-        copy(t, &t->list[FIELDS + k], *t->particles->field[k].data, MPS__ON_HOST);
-}
-
-static void blocks_ready(mps__twins *t, int32_t end)
-{
-    const bool before = t->device.failed;
-    for (int32_t k = 0; t->step && k < end; k++)
-        copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
-    t->torn = t->torn || t->device.failed != before;
-}
-
-void mps__twins_lists_ready(mps__twins *t)
-{
-    blocks_ready(t, MPS__BLOCKS);
-}
-
-void mps__twins_rows_ready(mps__twins *t)
-{
-    blocks_ready(t, MPS__LASTING);
-}
-
-void mps__twins_rows_drop(mps__twins *t)
-{
-    for (int k = 0; k < MPS__LASTING; k++) t->block[k].bytes = 0;
-    t->listed = -1;
-}
-
-void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
-{
-    mps__twin *twin = t->open ? twin_of(t, channel) : NULL;
-    if (twin) change(t, twin, host_array(t, channel), place, true);
-}
-
-void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)
-{
-    const mps__twin *twin = place == MPS__ON_DEVICE ? twin_of(t, channel) : NULL;
-    return twin ? twin->data : host_array(t, channel);
 }

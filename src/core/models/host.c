@@ -265,7 +265,7 @@ static void make_ready(mps__host *h, const mps__call *call, int32_t place)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
     if (!h->twins.open) return;
-    if (place == MPS__ON_DEVICE || call->model) mps__twins_ready(&h->twins, MPS__POSITION, place);
+    mps__twins_ready(&h->twins, MPS__POSITION, place);
     bool pairs = call->model != NULL;
     for (int32_t u = 0; u < call->use_count; u++) {
         pairs = pairs || call->uses[u].access & MPS__USE_AROUND;

@@ -87,8 +87,11 @@ void mps__host_do_later(mps__host *h, mps__then then);
 void mps__host_settle(mps__host *h);
 /* The same, with a number of at most 8 bytes that the copy brings too: `array` is of the device. */
 void mps__host_settle_with(mps__host *h, const void *array, void *out, size_t bytes);
+/* Fail for reactions at a device that are not finite; known when all that waits is done. reaction.c */
+mps_status mps__host_check_reactions(const mps__host *h, double t);
 /* Place at the device for values to come. */
 void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then);
+void *mps__laters_join(mps__host *h, int32_t sums, mps__joins joins);
 /* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
 const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);

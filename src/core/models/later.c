@@ -4,14 +4,24 @@
 #include <math.h>
 #include <string.h>
 
-void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then)
+static void *place(mps__host *h, int32_t sums, int32_t maxima, mps__then then, mps__joins joins)
 {
     mps__laters *l = &h->laters;
     if (l->count == MPS__LATERS) mps__host_settle(h);
     const size_t bytes = (size_t)sums * sizeof(mps_exact) + (size_t)maxima * sizeof(double);
-    l->list[l->count++] = (mps__later){then, sums, maxima, l->used};
+    l->list[l->count++] = (mps__later){then, joins, sums, maxima, l->used};
     l->used += bytes;
     return (char *)mps__twins_results(&h->twins) + l->used - bytes;
+}
+
+void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then)
+{
+    return place(h, sums, maxima, then, (mps__joins){NULL, NULL, 0});
+}
+
+void *mps__laters_join(mps__host *h, int32_t sums, mps__joins joins)
+{
+    return place(h, sums, 0, (mps__then){NULL, NULL}, joins);
 }
 
 void mps__host_do_later(mps__host *h, mps__then then)
@@ -26,11 +36,13 @@ void mps__host_do_later(mps__host *h, mps__then then)
 static void run_then(const mps__later *k, const char *all)
 {
     double values[MPS_PARALLEL_VALUES];
-    for (int32_t m = 0; m < k->sums; m++) {
-        mps_exact sum;
-        memcpy(&sum, all + k->at + (size_t)m * sizeof sum, sizeof sum);
-        values[m] = mps_exact_value(&sum);
+    mps_exact sum[MPS_PARALLEL_VALUES];
+    memcpy(sum, all + k->at, (size_t)k->sums * sizeof *sum);
+    if (k->joins.run) {
+        k->joins.run(k->joins.owner, k->joins.number, sum);
+        return;
     }
+    for (int32_t m = 0; m < k->sums; m++) values[m] = mps_exact_value(&sum[m]);
     if (k->maxima > 0) memcpy(values, all + k->at, (size_t)k->maxima * sizeof *values);
     k->then.run(k->then.owner, values);
 }

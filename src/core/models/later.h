@@ -8,7 +8,7 @@
 #include <mps/exact.h>
 #include <stddef.h>
 
-enum { MPS__LATERS = 24, MPS__LATER_ROOM = MPS__LATERS * 16 * (int)sizeof(mps_exact) };
+enum { MPS__LATERS = 48, MPS__LATER_ROOM = MPS__LATERS * 16 * (int)sizeof(mps_exact) };
 
 /* What is done with the values; a maximum is -INFINITY where no row has one. */
 typedef struct mps__then {
@@ -16,8 +16,16 @@ typedef struct mps__then {
     void *owner;
 } mps__then;
 
+/* The same of sums that are to be joined with others. */
+typedef struct mps__joins {
+    void (*run)(void *owner, int32_t number, const mps_exact *sums); /* NULL: there are values */
+    void *owner;
+    int32_t number;
+} mps__joins;
+
 typedef struct mps__later {
     mps__then then;
+    mps__joins joins;
     int32_t sums, maxima;
     size_t at; /* of its values among those of all */
 } mps__later;

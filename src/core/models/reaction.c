@@ -39,17 +39,18 @@ static int32_t line_of(const mps_stage *s, const mps__host *h)
     return s->hook == MPS_FORCE ? MPS__LINE_VISCOUS : MPS__LINE_COLLISION;
 }
 
-/* Add the sums of one place. @return non-zero: not finite */
-static int add_sums(mps_stage *s, mps__host *h, int32_t place, const mps_exact sums[6])
+static const char not_finite[] =
+    "the acceleration that a solid gives the fluid, by mps_stage_reaction(), is not finite";
+
+/* Add the sums of one place. @return false: not finite */
+static bool add_sums(mps__host *h, int32_t place, int32_t line, const mps_exact sums[6])
 {
     for (int d = 0; d < 6; d++) {
-        if (!isfinite(mps_exact_value(&sums[d])))
-            return mps_stage_fail(s, "the acceleration that a solid gives the fluid, by "
-                                     "mps_stage_reaction(), is not finite");
+        if (!isfinite(mps_exact_value(&sums[d]))) return false;
         mps_exact_join(&h->reactions.sum[place][d], &sums[d]);
-        mps_exact_join(&h->reactions.sum[line_of(s, h)][d], &sums[d]);
+        mps_exact_join(&h->reactions.sum[line][d], &sums[d]);
     }
-    return 0;
+    return true;
 }
 
 /* Add the rows of one place. @return non-zero: not finite */
@@ -59,27 +60,37 @@ static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
     double none[1];
     k->wanted = place;
     mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
-    return add_sums(s, h, place, sums);
+    return add_sums(h, place, line_of(s, h), sums) ? 0 : mps_stage_fail(s, "%s", not_finite);
 }
 
-/* Those of all places at a device, where it is not known which occur: one copy has the sums. */
+/* The number has the model, the place and the line. */
+static void join_place(void *host, int32_t number, const mps_exact *sums)
+{
+    mps__host *h = host;
+    const int32_t line = number % MPS__LINES, place = number / MPS__LINES % MPS__REACTIONS,
+                  model = number / MPS__LINES / MPS__REACTIONS;
+    if (!add_sums(h, place, line, sums) && !h->reactions.wrong)
+        h->reactions.wrong = h->models->on[model].ops->name;
+}
+
+/* Those of all places at a device, where it is not known which occur. Nothing waits for them. */
 static int add_there(mps_stage *s, mps__host *h, report *k)
 {
-    mps_exact sums[MPS__REACTIONS][6];
-    const int32_t places = 1 + h->particles->parts;
-    const size_t bytes = (size_t)places * sizeof sums[0];
-    void *there = mps_stage_scratch(s, (int64_t)(bytes / sizeof(double)));
-    int failed = !there;
-    for (int32_t p = 0; p < places && !failed; p++) {
-        k->wanted = MPS__REACTION_WHOLE + p;
+    const int32_t model = (int32_t)(h->model - h->models->on);
+    for (int32_t p = MPS__REACTION_WHOLE; p <= MPS__REACTION_WHOLE + h->particles->parts; p++) {
+        const int32_t number = (model * MPS__REACTIONS + p) * MPS__LINES + line_of(s, h);
+        k->wanted = p;
         mps__values_gather(&h->twins.device, &add_rows, s->view->dim, s->view->n, k,
-                           (char *)there + (size_t)p * sizeof sums[0]);
+                           mps__laters_join(h, 6, (mps__joins){join_place, h, number}));
     }
-    if (!failed) mps__device_download(&h->twins.device, sums, there, bytes);
-    failed = failed || h->twins.device.failed;
-    for (int32_t p = 0; p < places && !failed; p++)
-        failed = add_sums(s, h, MPS__REACTION_WHOLE + p, sums[p]);
-    return failed;
+    return 0;
+}
+
+mps_status mps__host_check_reactions(const mps__host *h, double t)
+{
+    if (!h->reactions.wrong) return MPS_OK;
+    return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s: %s", h->reactions.wrong,
+                     t, not_finite);
 }
 
 /* The solid nearest to a fluid row, of those as near the one with the least id; -1: there is none. */

@@ -30,13 +30,19 @@ MPS_ROW void moved_row(const int dim, const way *w, int64_t i, double *worst)
 }
 MPS__VALUES(moved_rows, moved_row, way, 0, 1)
 
-bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x, double re_far)
+bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x,
+                           const double *searched, double re_far)
 {
     double worst = 0;
-    if (!l->valid || n != l->n || re_far != l->re_far) return false;
-    mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, l->searched, l->ghost}, NULL,
+    if (!mps__neighbours_within(l, n, re_far, 0)) return false;
+    mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, searched, l->ghost}, NULL,
                     &worst);
-    return worst < 0.25 * l->skin * l->skin;
+    return mps__neighbours_within(l, n, re_far, worst);
+}
+
+bool mps__neighbours_within(const mps_neighbours *l, int64_t n, double re_far, double square)
+{
+    return l->valid && n == l->n && re_far == l->re_far && square < 0.25 * l->skin * l->skin;
 }
 
 /* ---- memory ---------------------------------------------------------------------------------------------------- */
@@ -401,7 +407,6 @@ mps_status mps__neighbours_begin(mps_neighbours *l, int64_t n, const double *x, 
 
 void mps__neighbours_end(mps_neighbours *l)
 {
-    memcpy(l->searched, l->x, (size_t)(l->n * l->dim) * sizeof *l->x);
     l->kind = NULL;
     l->valid = true;
 }
@@ -416,6 +421,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     mps__loop_run(l->parallel, &place_rows, l->dim, n, &(places){n, l->order, x, l->searched});
     if (l->kind) count_kinds(l);
     MPS__TRY(search_rows(l, sorted));
+    memcpy(l->searched, x, (size_t)(n * l->dim) * sizeof *x);
     mps__neighbours_end(l);
     return MPS_OK;
 }

@@ -278,12 +278,20 @@ mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n)
 
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
 {
+    static const bool old[MPS__FIELDS_MAX] = {false};
+    return mps__particles_reorder(s, count, order, old);
+}
+
+mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_t *order,
+                                  const bool *old)
+{
     if (in_order(s, count, order)) return MPS_OK;
     const int64_t solids = count != s->n ? count_solids(s) : 0;
     char *scratch = room_to_move(s, s->n);
     if (!scratch) return MPS_E_NOMEM;
     s->changes++;
-    for (int32_t k = 0; k < s->fields; k++) permute_field(s, &s->field[k], count, order, scratch);
+    for (int32_t k = 0; k < s->fields; k++)
+        if (!old[k]) permute_field(s, &s->field[k], count, order, scratch);
     int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
     for (int64_t i = 0; i < s->n; i++) place[i] = -1;
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;

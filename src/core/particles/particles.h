@@ -22,7 +22,8 @@ typedef struct mps__field {
     bool stale;   /* owners have newer values than ghosts */
     bool trails;  /* stays the last one, as it will be dropped */
     bool passing; /* a first guess: zeros, where a checkpoint does not have it */
-    bool undone;  /* a failed step brings it back from `kept` */
+    bool undone;  /* a failed step brings it back from `kept`, */
+    bool there;   /* or from where the device of the step keeps it */
     void *kept;
     int64_t kept_capacity;
 } mps__field;
@@ -69,6 +70,9 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
 int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Keep particle order[k] at place k for k < count; what is not listed is gone. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
+/* The same without fields that are `old`, [fields]: their values are elsewhere. */
+mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_t *order,
+                                  const bool *old);
 /* Element order[k] of `from`, of so many bytes, to place k < count of `to`. */
 void mps__particles_gather(const mps_parallel *p, void *to, const void *from, int64_t count,
                            const int32_t *order, size_t bytes);

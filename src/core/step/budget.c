@@ -64,8 +64,18 @@ void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
 {
     double s[TERMS] = {0};
     sum_terms(w, &add_energies, &(terms){0}, 2 + w->setup.dim, s);
-    *bulk = (mps__bulk){.kinetic = s[0], .potential = s[1 + w->setup.dim]};
-    for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = s[1 + d];
+    mps__budget_take(w, s, bulk);
+}
+
+void mps__budget_later(mps__world *w, mps__then then)
+{
+    sum_later(w, &add_energies, &(terms){0}, 2 + w->setup.dim, then);
+}
+
+void mps__budget_take(const mps__world *w, const double *sums, mps__bulk *bulk)
+{
+    *bulk = (mps__bulk){.kinetic = sums[0], .potential = sums[1 + w->setup.dim]};
+    for (int d = 0; d < w->setup.dim; d++) bulk->momentum[d] = sums[1 + d];
 }
 
 void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
@@ -252,15 +262,24 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
     b->last = now;
 }
 
-void mps__budget_update(const mps__world *w, mps__budget *b)
+/* Whether the sums of the last step hold. Ranks agree by summing again. */
+static bool is_booked(const mps__world *w)
 {
+    return w->booked == w->particles.changes && !mps__ranks_many(&w->ranks);
+}
+
+mps_status mps__budget_update(const mps__world *w, mps__budget *b)
+{
+    if (b->started && is_booked(w)) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
     if (b->started) {
         mps__budget_book_added(w, b);
-        return;
+        return MPS_OK;
     }
     *b = (mps__budget){0}; /* a first step that failed leaves nothing */
     mps__budget_sum(w, &b->last);
     b->start = b->last.kinetic + b->last.potential;
+    return MPS_OK;
 }
 
 MPS_ROW void add_deviation(const int dim, const mps_view *v, const terms *f, int64_t i,

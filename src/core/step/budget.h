@@ -13,6 +13,9 @@ typedef struct mps__push {
 } mps__push;
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk);
+/* The same later, from its sums. */
+void mps__budget_later(mps__world *w, mps__then then);
+void mps__budget_take(const mps__world *w, const double *sums, mps__bulk *bulk);
 /* What changes of velocities change: all but the potential energy, which is set to 0. */
 void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk);
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push);
@@ -39,7 +42,7 @@ void mps__budget_wall_force(mps__world *w, const mps__pose *end, const double *p
 void mps__budget_lift(mps__world *w, const double *dx, mps__then then);
 /* Between steps: what others have done to the fluid since the last one, particles come or gone and arrays written, goes to `added`.
  * Before the first step there is nothing to compare with, and the budget begins. */
-void mps__budget_update(const mps__world *w, mps__budget *b);
+mps_status mps__budget_update(const mps__world *w, mps__budget *b);
 /* All that has changed since `last` goes to `added`. */
 void mps__budget_book_added(const mps__world *w, mps__budget *b);
 /* For `then`: volume deviations of inner fluid particles in the step just made, and how many there are. */

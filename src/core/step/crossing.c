@@ -90,32 +90,47 @@ static double crossing_time(const mps__world *w, double fastest, double piece, d
     return w->state.step > 0 ? fmin(fmax(wanted, last - 0.1 * dt), last + 0.1 * dt) : wanted;
 }
 
-/* Speeds of the fastest particle and of the fastest piece above 5 U_g. It is looked for among particles nearly as fast as the one before; if there
- * is none, among all. */
-static void find_speeds(const mps_stage *s, liquid *f, double *fastest, double *piece)
+static void take_speeds(void *step, const double *most)
 {
-    const mps__world *w = mps__step_of(s)->w;
-    const double calm = 5 * w->setup.velocity_scale, last = w->state.crossing_time,
-                 before = last > 0 ? NEARLY * w->setup.dp / last : 0;
-    double most[SPEEDS] = {-INFINITY, -INFINITY};
-    for (int k = before > calm ? 0 : 1; k < 2 && most[PIECE] < 0; k++) {
-        f->least = k == 0 ? before * before : calm * calm;
-        mps_stage_max(s, SPEEDS, &raise_speeds, f, most);
+    mps__step *q = step;
+    memcpy(q->speeds, most, sizeof q->speeds);
+}
+
+/* Speeds of the fastest particle and of the fastest piece above `least`. */
+static void ask_speeds(mps_stage *s, double least)
+{
+    mps__step *q = mps__step_of(s);
+    mps__world *w = q->w;
+    liquid f = {.u = mps__seen(w, w->particles.u),
+                .rho = mps__seen(w, w->particles.rho),
+                .least = least * least,
+                .piece = film_of_two_rows(&s->view->near)};
+    for (int p = 0; p < MPS__PHASES; p++)
+        if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
+    mps__host_max_later(&w->host, s->view, SPEEDS, &raise_speeds, &f, (mps__then){take_speeds, q});
+}
+
+/* Where there is no piece nearly as fast as the one before, it is looked for among all above 5 U_g. */
+void mps__step_crossing_end(mps_stage *s)
+{
+    mps__step *q = mps__step_of(s);
+    if (q->nearly && q->speeds[PIECE] < 0) {
+        ask_speeds(s, 5 * q->w->setup.velocity_scale);
+        mps__host_settle(&q->w->host);
     }
-    *fastest = sqrt(fmax(0, most[ANY]));
-    *piece = sqrt(fmax(0, most[PIECE]));
+    q->info.crossing_time = crossing_time(q->w, sqrt(fmax(0, q->speeds[ANY])),
+                                          sqrt(fmax(0, q->speeds[PIECE])), s->view->dt);
 }
 
 static mps_status find_crossing_time(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     const mps__world *w = q->w;
-    double fastest, piece;
-    liquid f = {.u = s->data[0], .rho = s->data[1], .piece = film_of_two_rows(&s->view->near)};
-    for (int p = 0; p < MPS__PHASES; p++)
-        if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
-    find_speeds(s, &f, &fastest, &piece);
-    q->info.crossing_time = crossing_time(w, fastest, piece, s->view->dt);
+    const double calm = 5 * w->setup.velocity_scale, last = w->state.crossing_time,
+                 before = last > 0 ? NEARLY * w->setup.dp / last : 0;
+    q->nearly = before > calm;
+    ask_speeds(s, q->nearly ? before : calm);
+    if (!mps__device_of(&w->pool.parallel)) mps__step_crossing_end(s);
     return mps__ranks_status(&q->w->ranks);
 }
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Checks of what a step has done: finite, not too fast, and not farther than the walls can hold; how far the walls go. */
+#include "step.h"
 #include "world_ranks.h"
 #include <float.h>
 #include <string.h>
@@ -72,7 +73,7 @@ static mps_status jumped(mps__world *w, const mps_view *v, const ways *f, int64_
 }
 
 /* Steps that follow the speed never get there, unless a model of a plug-in pushes. */
-static bool may_jump(const mps__world *w)
+bool mps__world_may_jump(const mps__world *w)
 {
     const mps_time_control *c = &w->setup.control;
     bool foreign = false;
@@ -99,7 +100,7 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const do
         .before = before, .x = mps__seen(w, w->particles.x), .dt = dt, .limit = limit_of(w)};
     double most[3] = {0, 0, -INFINITY};
     mps_view v;
-    if (!may_jump(w)) return MPS_OK;
+    if (!mps__world_may_jump(w)) return MPS_OK;
     view_of(w, next, &v);
     mps__host_max(&w->host, &v, 3, &raise_ways, &f, most);
     if (most[0] > 0 && !isinf(most[2])) return jumped(w, &v, &f, (int64_t)-most[2]);
@@ -187,31 +188,31 @@ MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int
 }
 MPS_SUMS(raise_results, raise_result, result)
 
-typedef struct found {
-    double fastest, failed; /* the negative of the least id; -INFINITY: all are sound */
-} found;
-
 static void take_result(void *to, const double *most)
 {
-    *(found *)to = (found){most[0] > 0 ? most[0] : 0, most[1]};
+    *(mps__outcome *)to = (mps__outcome){most[0] > 0 ? most[0] : 0, most[1]};
 }
 
-/* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
-mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
-                                   mps_step_info *info)
+void mps__world_ask_result(mps__world *w, const mps_view *s, mps__outcome *v)
 {
     const mps__particles *all = &w->particles;
     const result f = {.x = mps__seen(w, all->x),
                       .u = mps__seen(w, all->u),
                       .p = mps__seen(w, all->p),
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
-    found v = {0, -INFINITY};
-    mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, &v});
-    mps__host_settle(&w->host);
-    info->max_speed = v.fastest;
-    info->cfl = v.fastest * s->dt / s->dp;
-    if (isinf(v.failed)) return MPS_OK;
-    const int64_t worst = place_of(w, (int64_t)-v.failed);
+    *v = (mps__outcome){0, -INFINITY}; /* where a device fails */
+    mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, v});
+}
+
+/* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
+mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
+                                   const mps__outcome *v, mps_step_info *info)
+{
+    const mps__particles *all = &w->particles;
+    info->max_speed = v->fastest;
+    info->cfl = v->fastest * s->dt / s->dp;
+    if (isinf(v->failed)) return MPS_OK;
+    const int64_t worst = place_of(w, (int64_t)-v->failed);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
     mps__twins_fields_ready(&w->host.twins);
     const double *u = all->u + worst * s->dim,

@@ -74,8 +74,10 @@ mps_status mps__world_populate(mps__world *w)
     w->lists.aside = w->lists.gone = w->lists.lost = 0;
     w->lists.first_new = w->particles.next_id;
     if (begin[MPS_POPULATE] == begin[MPS_POPULATE + 1]) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
     open_stage(w, &s, &v);
     w->particles.changes++; /* verbs may write fields */
+    w->ahead.holds = false;
     w->host.entries = 0;
     w->host.leaving = false;
     MPS__TRY(mps__host_run(&w->host, &s, &v, MPS_POPULATE));

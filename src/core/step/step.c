@@ -47,7 +47,13 @@ static void commit(mps__step *q)
     w->state.spread = q->spread;
     w->state.budget = q->budget;
     memcpy(w->state.reaction, q->reaction, sizeof q->reaction);
-    mps__budget_sum(w, &w->state.budget.last);
+    w->state.budget.last = q->last;
+    w->booked = w->particles.changes;
+    memcpy(w->ahead.most, q->ahead, sizeof q->ahead);
+    /* bodies move in the tank; without a device nothing was asked */
+    w->ahead.changes = w->host.twins.last.launches > 0 && !w->work.bodies ? w->particles.changes
+                                                                          : -1;
+    w->ahead.searches = w->lists.neighbours.searches;
     w->state.budget.deviation = q->deviation;
     if (!w->state.budget.started) {
         w->state.budget.started = true;
@@ -67,18 +73,20 @@ static void book_times(mps__step *q, double seconds)
 }
 
 /* The liquid starts with the tank's velocity, or everything from rest. */
-static void start(mps__world *w, mps__budget *budget)
+static mps_status start(mps__world *w, mps__budget *budget)
 {
     mps__particles *s = &w->particles;
-    if (!w->state.start_pending) return;
+    if (!w->state.start_pending) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
     w->state.start_pending = 0;
-    s->changes++;
     for (int64_t i = 0; i < s->n; i++) {
         double X[3];
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
         mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->setup.dim, NULL);
     }
+    mps__twins_changed(&w->host.twins, s->u);
     mps__budget_book_added(w, budget);
+    return MPS_OK;
 }
 
 /* What models leave for the next step. */
@@ -99,7 +107,7 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     q->budget = w->state.budget;
     if (w->lists.gone > 0 || w->lists.first_new != w->particles.next_id)
         mps__budget_book_added(w, &q->budget);
-    start(w, &q->budget);
+    MPS__TRY(start(w, &q->budget));
     MPS__TRY(mps__step_turn_areas(w));
     MPS__TRY(mps__step_place_solids(w));
     /* a function of the user has no text that a device knows */
@@ -160,15 +168,17 @@ static mps_status name_coupling(const mps__step *q, mps_status status)
                      w->context->error, jump);
 }
 
-/* Nothing is at the device any more that the host needs. What a search found there may be lost: the next step finds it again, where it was
- * found if that was in an earlier step. */
+/* The calls are over. What a search found there may be lost: the next step finds it again, where it was found. */
 static mps_status leave_device(mps__world *w)
 {
     const mps__twins *t = &w->host.twins;
+    char why[MPS__ERROR_SIZE];
     const mps_status status = mps__twins_close(&w->host.twins);
-    if (status < 0 && t->lost) w->lists.neighbours.valid = false;
-    if (status < 0 && t->torn) w->lists.neighbours.torn = true;
-    return status;
+    w->ahead.holds = false;
+    if (status == MPS_OK) return MPS_OK;
+    if (t->torn) w->lists.neighbours.torn = true;
+    memcpy(why, w->context->error, sizeof why);
+    return mps__fail(w->context, status, "t = %.9g s: %.400s", w->state.t, why);
 }
 
 mps_status mps__world_step(mps__world *w, double dt_max)
@@ -177,12 +187,15 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     mps__host_begin(&w->host);
     const double begin = w->host.clock;
     w->balance.waited = w->ranks.seconds;
+    MPS__TRY(mps__twins_alive(&w->host.twins));
     MPS__TRY(mps__world_adopt(w));
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
     mps__plan_note(&w->host.plan, &w->models);
     /* what has come, changed or gone since the last step, whatever becomes of this one */
     MPS__TRY(mps__step_book_between(w));
     mps__twins_begin(&w->host.twins);
+    w->ahead.holds = w->ahead.changes == w->particles.changes &&
+                     w->ahead.searches == w->lists.neighbours.searches;
     mps_status status = prepare(w);
     if (status < 0) {
         leave_device(w);
@@ -198,7 +211,10 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     if (kept) status = try_step(&q, dt_max, &planned);
     const mps_status closed = leave_device(w);
     if (closed < 0) status = closed; /* whatever came of it */
-    if (kept && status < 0) mps__undo_restore(w, q.before);
+    if (kept && status < 0) {
+        const mps_status undone = mps__undo_restore(w, q.before);
+        if (undone < 0) status = undone;
+    }
     if (status < 0) {
         mps__world_depopulate(w);
         w->state.start_pending = start_pending;

@@ -9,10 +9,19 @@
 
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
+/* What velocities, pressures and places are like. */
+typedef struct mps__outcome {
+    double fastest; /* speed [m/s] */
+    double
+        failed; /* negative of the least id of what is not finite or too fast; -INFINITY: all are sound */
+} mps__outcome;
+/* Known after mps__host_settle(). moves.c */
+void mps__world_ask_result(mps__world *w, const mps_view *s, mps__outcome *v);
 /* Fail for what is not finite or too fast, with the particle and its place before it moved, if it `has_moved`. Sets the largest speed of `info`. moves.c */
 mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
-                                   mps_step_info *info);
-/* Fluid that passes a wall in a step of dt that ends at a pose; the places before it, where loops run, are `before`. moves.c */
+                                   const mps__outcome *v, mps_step_info *info);
+/* Whether fluid may move farther in a step than it should; fluid that passes a wall in a step of dt that ends at a pose; the places before it, where loops run, are `before`. moves.c */
+bool mps__world_may_jump(const mps__world *w);
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
                                   double dt);
 /* The step to take, in s->dt; `planned` is the one the limits chose, 0 if the caller cut it. They also differ where the last steps of a run
@@ -47,8 +56,13 @@ typedef struct mps__step {
     mps__pose pose; /* of the tank at the end of the step */
     mps_step_info info;
     mps__budget budget;
-    double momentum[3];    /* of the prediction */
-    mps__bulk bulk;        /* of the velocities that were booked last */
+    double momentum[3];   /* of the prediction */
+    mps__bulk bulk;       /* of the velocities that were booked last */
+    mps__bulk last;       /* at the end */
+    mps__outcome outcome; /* likewise */
+    double speeds[2];     /* squares, for the crossing time; */
+    bool nearly;          /* of pieces nearly as fast as the one before only */
+    double ahead[MPS__AHEADS];
     double body_work;      /* of solids that models move */
     double lift;           /* potential energy lost by displacements */
     mps__push before_line; /* what was so before the verbs of `line` in the hook in progress */
@@ -126,8 +140,9 @@ void mps__step_body_end(mps__step *q);
 
 /* ---- what the resolution contains: crossing.c ---- */
 
-/* mps_step_info.crossing_time, from the speeds at the end of the step. */
+/* mps_step_info.crossing_time, from the speeds at the end of the step; on a device all are known after mps__host_settle(). */
 extern const mps__pass mps__pass_crossing;
+void mps__step_crossing_end(mps_stage *s);
 
 /* ---- the pressures: step_pressure.c ---- */
 
@@ -139,6 +154,7 @@ extern const mps__pass mps__pass_equation, mps__pass_matrix, mps__pass_unknowns,
 
 /* Before velocities change; in MPS_LOAD; when all has been done. */
 extern const mps__pass mps__pass_begin_load, mps__pass_half_cells;
+void mps__step_load_close(mps__step *q); /* velocities are those at the end */
 void mps__step_load_end(mps__step *q);
 /* What a load is found from, arrays of a stage. */
 typedef struct mps__load_arrays {

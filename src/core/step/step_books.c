@@ -17,7 +17,7 @@ static bool acts(const mps__step *q, int32_t hook)
 mps_status mps__step_book_between(mps__world *w)
 {
     mps__budget budget = w->state.budget;
-    mps__budget_update(w, &budget);
+    MPS__TRY(mps__budget_update(w, &budget));
     const double energy = budget.last.kinetic + budget.last.potential;
     if (!isfinite(energy))
         return mps__fail(w->context, MPS_E_DIVERGED,

@@ -190,10 +190,20 @@ const mps__pass mps__pass_move = {.name = "move",
 
 /* ---- checks, and what is kept ---- */
 
+static mps_status tell_result(mps__step *q)
+{
+    MPS__TRY(mps__host_check_reactions(&q->w->host, q->view.t));
+    return mps__world_check_result(q->w, &q->view, true, &q->outcome, &q->info);
+}
+
+/* On a device the result is known at the end of the step, unless ways of the fluid are looked at too. */
 static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    MPS__TRY(mps__world_check_result(q->w, &q->view, true, &q->info));
+    mps__world_ask_result(q->w, &q->view, &q->outcome);
+    if (mps__world_may_jump(q->w)) mps__host_settle(&q->w->host);
+    if (mps__world_may_jump(q->w) || !mps__device_of(&q->w->pool.parallel))
+        MPS__TRY(tell_result(q));
     return mps__world_check_moves(q->w, &q->pose, s->data[3], q->view.dt);
 }
 
@@ -259,6 +269,12 @@ static void take_counts(void *step, const double *counts)
     q->info.separated = (int64_t)counts[SEPARATED];
 }
 
+static void take_last(void *step, const double *sums)
+{
+    mps__step *q = step;
+    mps__budget_take(q->w, sums, &q->last);
+}
+
 /* Mean volume deviation of inner fluid; 0 if there is none. */
 static void take_deviation(void *step, const double *sums)
 {
@@ -275,11 +291,18 @@ static mps_status keep(mps_stage *s)
                            .region = s->data[2],
                            .load = mps__given(w, w->particles.load),
                            .held = mps__given(w, w->particles.held)};
-    mps_stage_rows(s, &keep_rows, &f);
+    const bool there = mps__device_of(&w->pool.parallel) != NULL;
     mps__host_sum_later(&w->host, s->view, COUNTS, &count_rows, &f, (mps__then){take_counts, q});
-    mps__step_keep_places(w, s->data[4], s->data[5]);
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
+    mps__budget_later(w, (mps__then){take_last, q});
+    if (there && !w->work.bodies) mps__world_look_ahead(w, &q->pose, q->ahead);
     mps__host_settle(&w->host);
+    MPS__TRY(mps__device_status(&w->host.twins.device));
+    if (there) MPS__TRY(tell_result(q));
+    if (there) mps__step_crossing_end(s);
+    mps_stage_rows(s, &keep_rows, &f);
+    mps__step_keep_places(w, s->data[4], s->data[5]);
+    mps__step_load_close(q);
     return MPS_OK;
 }
 

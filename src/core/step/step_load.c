@@ -228,14 +228,19 @@ void mps__step_acceleration(const mps__step *q, double accel[6])
     for (int k = 0; k < 6; k++) accel[k] = (accel[k] - before[k]) / q->view.dt;
 }
 
+void mps__step_load_close(mps__step *q)
+{
+    double after[MPS__MOMENTUM];
+    if (q->load.what == MPS_LOAD_NONE) return;
+    sum_momentum(q, NULL, false, after);
+    add_lack(q, after, q->load.force);
+}
+
 void mps__step_load_end(mps__step *q)
 {
     mps__world *w = q->w;
-    double after[MPS__MOMENTUM];
     mps__load *l = &q->load;
     if (l->what != MPS_LOAD_NONE) {
-        sum_momentum(q, NULL, false, after);
-        add_lack(q, after, l->force);
         mps__step_acceleration(q, l->accel);
         l->dt = q->view.dt;
         l->known = true;

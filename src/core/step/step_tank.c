@@ -194,6 +194,8 @@ mps_status mps__step_place_solids(mps__world *w)
     list[MPS__SOLID_PLACE].array = s->ref;
     list[MPS__SOLID_AREA].array = s->area;
     if (!k->bodies) return MPS_OK;
+    MPS__TRY(mps__world_fetch_field(w, s->ref));
+    MPS__TRY(mps__world_fetch_field(w, s->area));
     MPS__TRY(mps__grow(w->context, (void **)&k->placed, &k->placed_capacity, 0, 2 * count,
                        sizeof *k->placed));
     list[MPS__SOLID_PLACE].array = k->placed;

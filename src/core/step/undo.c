@@ -3,11 +3,19 @@
 #include "undo.h"
 #include <string.h>
 
-/* All that calls write; of positions the step itself keeps the old ones. A device may fail in each loop and each copy, to the last, and what it
- * holds is lost then. */
+/* What the last pass of a step writes, after all that may fail on the host. */
+static bool is_written_last(const mps__world *w, const mps__field *f)
+{
+    const mps__particles *s = &w->particles;
+    const void *const data = f->data;
+    return data == &s->load || data == &s->held || data == &s->ref || data == &s->area;
+}
+
+/* All that calls write; of positions the step itself keeps the old ones. A device may fail in each loop and each copy, to the last. */
 static bool is_kept(mps__world *w, const mps__field *f)
 {
-    if (w->host.twins.step) return true;
+    if (w->host.twins.step && (f->data == (void **)&w->particles.x || is_written_last(w, f)))
+        return true;
     return f->data != (void **)&w->particles.x &&
            mps__plan_writes(&w->host.plan, &w->channels, &w->particles, f);
 }
@@ -23,8 +31,10 @@ mps_status mps__undo_keep(mps__world *w)
     mps__models_keep(&w->models);
     for (int32_t k = 0; k < s->fields; k++) {
         mps__field *f = &s->field[k];
+        f->there = false;
         f->undone = is_kept(w, f);
-        if (!f->undone) continue;
+        if (f->undone) MPS__TRY(mps__twins_keep(&w->host.twins, k, &f->there));
+        if (!f->undone || f->there) continue;
         const int64_t room = s->n > f->kept_capacity ? mps__room(s->n, f->kept_capacity) : 0;
         MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room,
                            (size_t)f->components * f->size));
@@ -34,17 +44,19 @@ mps_status mps__undo_keep(mps__world *w)
     return MPS_OK;
 }
 
-void mps__undo_restore(mps__world *w, const double *before)
+mps_status mps__undo_restore(mps__world *w, const double *before)
 {
     mps__particles *s = &w->particles;
-    s->changes++;
-    bool moved = before != NULL;
+    bool moved = before != NULL, there = false;
     for (int32_t k = 0; k < s->fields; k++) {
         const mps__field *f = &s->field[k];
         if (!f->undone) continue;
-        memcpy(*f->data, f->kept, bytes_of(w, f));
+        if (!f->there) memcpy(*f->data, f->kept, bytes_of(w, f));
+        mps__twins_restore(&w->host.twins, k, f->there);
+        there = there || f->there;
         moved = moved && f->data != (void **)&s->x;
     }
     mps__models_restore(&w->models);
     if (moved) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
+    return there ? mps__twins_restored(&w->host.twins, w->state.t) : MPS_OK;
 }

@@ -7,7 +7,7 @@
 
 /* Keep the fields that calls of the plan write; numbers of models are kept when a verb asks for them. */
 mps_status mps__undo_keep(mps__world *w);
-/* Bring them back; positions too if particles have moved, from `before`; else NULL. */
-void mps__undo_restore(mps__world *w, const double *before);
+/* Bring them back; positions too if particles have moved, from `before`; else NULL. MPS_E_PLUGIN: what a device kept is lost with it. */
+mps_status mps__undo_restore(mps__world *w, const double *before);
 
 #endif

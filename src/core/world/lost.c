@@ -7,6 +7,8 @@
 static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
+    w->particles.changes++;
+    w->ahead.holds = false;
     w->ghosts.known -= count;
     w->particles.generation++;
     w->lists.aside += count;
@@ -81,14 +83,20 @@ typedef struct box {
     double lo[3], hi[3];
 } box;
 
-MPS_ROW void look_outside(const int dim, const mps_view *v, const box *f, int64_t i)
+MPS_ROW bool is_outside(const int dim, const mps_view *v, const box *f, int64_t i)
 {
     const mps_tank_pose *k = &v->tank;
     double X[3];
-    f->gone[i] = false;
-    if (!mps_is_fluid(v, i)) return;
+    bool out = false;
+    if (!mps_is_fluid(v, i)) return false;
     mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
-    for (int d = 0; d < dim; d++) f->gone[i] |= !(X[d] >= f->lo[d] && X[d] <= f->hi[d]);
+    for (int d = 0; d < dim; d++) out |= !(X[d] >= f->lo[d] && X[d] <= f->hi[d]);
+    return out;
+}
+
+MPS_ROW void look_outside(const int dim, const mps_view *v, const box *f, int64_t i)
+{
+    f->gone[i] = is_outside(dim, v, f, i);
 }
 MPS_ROWS(outside_rows, look_outside, box)
 
@@ -98,12 +106,77 @@ static void clear_gone(const mps__world *w)
     memset(w->work.gone, 0, (size_t)w->particles.n * sizeof *w->work.gone);
 }
 
+/* The maximum: whether any row is. */
+MPS_ROW void note_outside(const int dim, const mps_view *v, const box *f, int64_t i, double *any)
+{
+    if (is_outside(dim, v, f, i)) *any = 1;
+}
+MPS_SUMS(any_outside, note_outside, box)
+
+/* Of the next step: fluid outside, ways since the search, speeds. */
+typedef struct aheads {
+    box box;
+    const double *searched, *u;
+} aheads;
+
+MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
+{
+    double way = 0, speed = 0;
+    for (int d = 0; d < dim; d++) {
+        const double m = v->x[i * dim + d] - f->searched[i * dim + d], u = f->u[i * dim + d];
+        way += m * m;
+        speed += u * u;
+    }
+    if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
+    if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
+    if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
+}
+MPS_SUMS(raise_aheads, raise_ahead, aheads)
+
+static void take_ahead(void *to, const double *most)
+{
+    memcpy(to, most, MPS__AHEADS * sizeof *most);
+}
+
+void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
+{
+    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
+                .u = mps__seen(w, w->particles.u)};
+    mps_view v;
+    for (int d = 0; d < 3; d++) {
+        f.box.lo[d] = -INFINITY;
+        f.box.hi[d] = INFINITY;
+    }
+    mps__world_domain(w, f.box.lo, f.box.hi);
+    mps__world_view(w, &v);
+    mps__motion_view(&w->motion, pose, &v.tank);
+    mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
+                        (mps__then){take_ahead, most});
+}
+
+/* Whether any liquid is outside, where the device of a step has the particles. */
+static mps_status look_out_there(mps__world *w, const mps_view *v, const box *b, bool *any)
+{
+    double most = 0;
+    MPS__TRY(mps__twins_enter(&w->host.twins));
+    mps__host_max(&w->host, v, 1, &any_outside, b, &most);
+    *any = most > 0;
+    return mps__twins_leave(&w->host.twins);
+}
+
 mps_status mps__world_leave_domain(mps__world *w)
 {
-    box b = {.gone = w->work.gone};
+    box b = {.gone = NULL};
+    bool any = true;
     mps_view v;
+    if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
+    MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* bodies move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
+    if (!w->ahead.holds && mps__world_there(w)) MPS__TRY(look_out_there(w, &v, &b, &any));
+    if (!any) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
+    b.gone = w->work.gone;
     clear_gone(w);
     mps__host_rows(&w->host, &v, &outside_rows, &b);
     return handle_lost(w, w->work.gone, "left the domain");
@@ -203,6 +276,7 @@ mps_status mps__world_leave_tank(mps__world *w)
     mps__world_view(w, &v);
     if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
     if (!any) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
     mps__twins_rows_ready(&w->host.twins);
     MPS__TRY(mps__device_status(&w->host.twins.device));
     const rims f = rims_of(w);

@@ -96,6 +96,7 @@ mps_status mps__plates_find(mps__world *w)
     const mps__particles *s = &w->particles;
     mps__screens *p = &w->lists.screens;
     if (p->count == 0) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
     mps__plates_set_active(w);
     MPS__TRY(mps__grow(w->context, (void **)&p->slot, &p->slot_capacity, 0, s->n, sizeof *p->slot));
     p->seers = 0;

@@ -23,6 +23,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__bounds_init(&w->bounds, context);
     mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
+    w->ahead.changes = w->booked = -1;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
@@ -135,6 +136,7 @@ double mps__world_speed(mps__world *w)
 {
     mps_view v;
     double most = 0;
+    if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
     mps__world_view(w, &v);
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
     mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){mps__seen(w, w->particles.u)}, &most);
@@ -225,7 +227,7 @@ static void choose_rows(mps__world *w, bool all)
     w->lists.neighbours.ghost_rows = mps__models_neighbour_rows(&w->models);
 }
 
-/* Lists of the particles in the order they have, which is that of the cells if they are `sorted`. */
+/* Lists of the particles in the order they have, which is that of the cells if they are `sorted`; places are on the host. */
 static mps_status search_lists(mps__world *w, bool sorted, bool all)
 {
     mps__particles *s = &w->particles;
@@ -244,6 +246,7 @@ static mps_status search_active(mps__world *w, bool sorted)
     bool there = false;
     choose_rows(w, false);
     if (sorted) MPS__TRY(mps__world_search_there(w, &there));
+    if (!there) MPS__TRY(mps__world_fetch(w));
     if (!there) MPS__TRY(search_lists(w, sorted, false));
     MPS__TRY(mps__plates_find(w));
     if (there) return mps__world_hide_there(w);
@@ -256,6 +259,7 @@ static mps_status search(mps__world *w, bool sorted)
 {
     mps_status status = MPS_OK;
     if (w->lists.linked != w->particles.solids) {
+        MPS__TRY(mps__world_fetch(w));
         MPS__TRY(search_lists(w, sorted, true));
         status = link_solids(w);
     }
@@ -280,6 +284,7 @@ static mps_status note_models(mps__world *w)
 {
     const mps__particles *s = &w->particles;
     if (!wants_other_lists(w)) return MPS_OK;
+    MPS__TRY(mps__world_fetch_searched(w));
     w->lists.listed_at = mps__alloc(w->context, s->n * s->dim, sizeof(double));
     if (!w->lists.listed_at) return MPS_E_NOMEM;
     mps__parallel_copy(&w->pool.parallel, w->lists.listed_at, w->lists.neighbours.searched,
@@ -303,6 +308,7 @@ static mps_status list_again(mps__world *w)
     if (!w->lists.listed_at) MPS__TRY(note_models(w));
     if (mps__ranks_many(&w->ranks)) return mps__world_list_again(w, search_listed);
     if (!w->lists.listed_at) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w)); /* before places are others */
     if (w->lists.linked == s->solids && w->lists.listed == s->generation) {
         s->x = w->lists.listed_at;
         mps_status status = search_lists(w, false, false);
@@ -322,9 +328,10 @@ static mps_status renew(mps__world *w)
     mps__particles *s = &w->particles;
     enum { LINK, SEARCH, WRITTEN, THINGS };
     MPS__TRY(list_again(w));
-    bool wanted[THINGS] = {[LINK] = w->lists.linked != s->solids};
-    wanted[SEARCH] = wanted[LINK] || w->lists.listed != s->generation ||
-                     !mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
+    bool fresh = w->lists.listed == s->generation,
+         wanted[THINGS] = {[LINK] = w->lists.linked != s->solids};
+    if (fresh && !wanted[LINK]) MPS__TRY(mps__world_fresh(w, &fresh));
+    wanted[SEARCH] = wanted[LINK] || !fresh;
     wanted[WRITTEN] = s->written;
     mps__world_any(w, THINGS, wanted);
     s->written = false;
@@ -349,6 +356,7 @@ mps_status mps__world_neighbours_populated(mps__world *w)
     MPS__TRY(mps__world_adopt(w));
     mps__world_any(w, 1, &any);
     MPS__CHECK(w->context, any, "there are no particles");
+    if (!mps__world_there(w)) MPS__TRY(mps__world_fetch(w));
     MPS__TRY(mps__world_reserve(w));
     mps_status status = mps__world_leave_domain(w);
     any = w->particles.n > 0;
@@ -385,9 +393,10 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     if (mps__ranks_many(&w->ranks)) return neighbours_of_ranks(w);
     MPS__CHECK(w->context, s->n > 0, "there are no particles");
     MPS__TRY(mps__world_reserve(w));
+    MPS__TRY(mps__world_fetch(w));
     MPS__TRY(list_again(w));
-    const bool fresh = w->lists.linked == s->solids && w->lists.listed == s->generation &&
-                       mps__neighbours_fresh(&w->lists.neighbours, s->n, s->x, w->setup.re_far);
+    bool fresh = w->lists.linked == s->solids && w->lists.listed == s->generation;
+    if (fresh) MPS__TRY(mps__world_fresh(w, &fresh));
     if (fresh) return mps__world_rows(w);
     const mps_status status = search(w, false);
     w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */

@@ -129,6 +129,16 @@ typedef struct mps__lists {
     int64_t orders;    /* how often particles were put in order */
 } mps__lists;
 
+/* What a step on a device tells the next one, in its last copy: whether fluid is outside of the domain, the square of the longest way since the
+ * search, the square of the largest speed. It holds for the same particles and the same search. */
+enum { MPS__AHEAD_OUTSIDE, MPS__AHEAD_WAY, MPS__AHEAD_SPEED, MPS__AHEADS };
+typedef struct mps__ahead {
+    double most[MPS__AHEADS];
+    int64_t changes,
+        searches; /* of the particles, of the lists, at the end of the step; -1: nothing is told */
+    bool holds;   /* in the step in progress */
+} mps__ahead;
+
 /* What stands aside while the store has particles of all ranks; gather.h. */
 typedef struct mps__gathered {
     bool begun; /* by the user */
@@ -194,6 +204,8 @@ typedef struct mps__world {
     mps__load load;
     mps__mass mass;
     bool ending; /* dt_max of a step is what is left of a run */
+    mps__ahead ahead;
+    int64_t booked; /* mps__particles.changes when the last step summed state.budget.last */
 } mps__world;
 
 /* `passes` are those of a step, in their order. */
@@ -208,12 +220,25 @@ void mps__world_spacing(mps__world *w, double dp);
 mps_status mps__world_neighbours(mps__world *w);
 /* The same after mps__world_populate(). */
 mps_status mps__world_neighbours_populated(mps__world *w);
+/* All fields of the particles are on the host, or one of them; the candidates of the last search; the places of that search. To be called before anything on the host reads
+ * them outside of the calls of a step. MPS_E_PLUGIN: a device has them alone and does not give them. world_fields.c */
+mps_status mps__world_fetch(const mps__world *w);
+mps_status mps__world_fetch_field(const mps__world *w, const void *array);
+mps_status mps__world_fetch_lists(const mps__world *w);
+mps_status mps__world_fetch_searched(const mps__world *w);
+/* Whether loops run on the device of a step that begins; whether it has the lists of the last search, too. world_rows.c */
+bool mps__world_there(const mps__world *w);
+bool mps__world_rows_there(const mps__world *w);
+/* Whether the candidates of the last search still hold. world_rows.c */
+mps_status mps__world_fresh(mps__world *w, bool *fresh);
 /* What rows see of the particles as they are, without pairs. */
 void mps__world_view(const mps__world *w, mps_view *v);
 /* Move `count` particles with `gone` behind the others, where they are no more, but may come back. They do not count as lost. lost.c */
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Room for all particles in arrays of a step that are no channels. */
 mps_status mps__world_reserve(mps__world *w);
+/* Ask for what the next step wants to know, with the tank at a pose; known after mps__host_settle(). lost.c */
+void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS]);
 /* Remove fluid outside of the domain, or behind walls, as the policy says. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);
@@ -229,8 +254,6 @@ mps_status mps__world_order(mps__world *w, const int32_t **there);
  * host. Plates hide nothing yet. world_rows.c */
 mps_status mps__world_search_there(mps__world *w, bool *found);
 mps_status mps__world_hide_there(mps__world *w);
-/* Whether the device of a step has those lists. */
-bool mps__world_rows_there(const mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */

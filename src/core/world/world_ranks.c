@@ -184,9 +184,13 @@ mps_status mps__world_divide(mps__world *w)
     mps__host_all_alike(&w->host);
     MPS__TRY(mps__world_order(w, &there));
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
+    MPS__TRY(mps__particles_permute_reserve(s, s->n));
+    MPS__TRY(mps__twins_permute(&w->host.twins, l->order, there));
     const int64_t changes = s->changes;
-    MPS__TRY(mps__particles_permute(s, s->n, l->order));
-    MPS__TRY(mps__twins_permute(&w->host.twins, changes, l->order, there));
+    bool old[MPS__FIELDS_MAX];
+    mps__twins_old(&w->host.twins, old);
+    MPS__TRY(mps__particles_reorder(s, s->n, l->order, old));
+    mps__twins_permuted(&w->host.twins, changes);
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
@@ -207,6 +211,7 @@ mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[]
         s->field[s->fields - 1].trails = true;
     }
     const mps_status status = mps__particles_replace(s, n, all);
+    if (status == MPS_OK) mps__twins_forget(&w->host.twins);
     if (status < 0 && travels) mps__particles_field_drop(s);
     if (status < 0 || !mps__ranks_many(&w->ranks)) return status;
     for (int64_t i = 0; i < n; i++) s->wall_id[i] = s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;

@@ -9,6 +9,11 @@ static bool device_finds(const mps__world *w)
     return w->host.twins.step && w->setup.kernel.id != MPS_KERNEL_CUSTOM;
 }
 
+bool mps__world_there(const mps__world *w)
+{
+    return device_finds(w) && mps__twins_there(&w->host.twins);
+}
+
 /* The host's lists are an older parting of the same candidates as long as the device has newer ones: still right to begin from. */
 bool mps__world_rows_there(const mps__world *w)
 {
@@ -29,7 +34,8 @@ static mps_status make_lists(mps__world *w, bool values)
         MPS__TRY(mps__twins_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, values));
     MPS__TRY(mps__twins_block(t, MPS__ROWS_COUNT, l->count, n, sizeof *l->count, values));
     MPS__TRY(mps__twins_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, values));
-    return mps__twins_block(t, MPS__RIM_ROWS, l->rim, n, sizeof *l->rim, values);
+    MPS__TRY(mps__twins_block(t, MPS__RIM_ROWS, l->rim, n, sizeof *l->rim, values));
+    return mps__twins_block(t, MPS__SEARCHED, l->searched, n * l->dim, sizeof *l->searched, values);
 }
 
 static mps_status make_columns(mps__world *w, bool values)
@@ -72,8 +78,9 @@ mps_status mps__world_order(mps__world *w, const int32_t **there)
         mps__twins_leave(&w->host.twins); /* what has failed is seen after the host's order */
         MPS__TRY(status);
     }
-    return *there ? MPS_OK
-                  : mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far);
+    if (*there) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
+    return mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far);
 }
 
 /* ---- candidates ---- */
@@ -102,6 +109,8 @@ static mps_status search_there(mps__world *w, bool *found)
     MPS__TRY(make_columns(w, false));
     there.col = mps__given(w, l->col);
     mps__neighbours_fill_there(l, &there);
+    mps__device_copy(&t->device, mps__given(w, l->searched), there.x,
+                     (size_t)(l->n * l->dim) * sizeof *l->searched);
     *found = true;
     return MPS_OK;
 }
@@ -190,10 +199,32 @@ static mps_status rows_there(mps__world *w)
     return mps__twins_leave(t);
 }
 
+mps_status mps__world_fresh(mps__world *w, bool *fresh)
+{
+    const mps_neighbours *l = &w->lists.neighbours;
+    const mps__particles *s = &w->particles;
+    const bool there = mps__world_there(w) && mps__world_rows_there(w);
+    if (there && w->ahead.holds) {
+        *fresh = mps__neighbours_within(l, s->n, w->setup.re_far, w->ahead.most[MPS__AHEAD_WAY]);
+        return MPS_OK;
+    }
+    if (there)
+        MPS__TRY(mps__twins_enter(&w->host.twins));
+    else
+        MPS__TRY(mps__world_fetch(w));
+    if (!there && l->valid) MPS__TRY(mps__world_fetch_searched(w));
+    *fresh = mps__neighbours_fresh(l, s->n, mps__seen(w, s->x), mps__seen(w, l->searched),
+                                   w->setup.re_far);
+    return there ? mps__twins_leave(&w->host.twins) : MPS_OK;
+}
+
 mps_status mps__world_rows(mps__world *w)
 {
+    const bool there = mps__world_rows_there(w);
+    if (w->lists.screens.count > 0 || !there) MPS__TRY(mps__world_fetch_field(w, w->particles.x));
     mps__plates_look(w);
-    if (mps__world_rows_there(w)) return rows_there(w);
+    if (there) return rows_there(w);
+    MPS__TRY(mps__world_fetch_lists(w));
     mps__twins_rows_drop(&w->host.twins); /* older than these from now on */
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
     return MPS_OK;

@@ -1,0 +1,36 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Fields and lists that the device of the last step has alone come to the host for what looks at them there. */
+#include "world.h"
+#include <string.h>
+
+/* The text of a failure, with the time of the state that did not come. */
+static mps_status tell(const mps__world *w, mps_status status)
+{
+    char why[MPS__ERROR_SIZE];
+    if (status >= 0 || w->host.twins.gone[0] || w->host.twins.step) return status;
+    memcpy(why, w->context->error, sizeof why);
+    return mps__fail(w->context, status,
+                     "t = %.9g s: %.300s; the fields of the particles are there alone: try again, "
+                     "or read a checkpoint or restore a snapshot",
+                     w->state.t, why);
+}
+
+mps_status mps__world_fetch(const mps__world *w)
+{
+    return tell(w, mps__twins_fetch((mps__twins *)&w->host.twins));
+}
+
+mps_status mps__world_fetch_field(const mps__world *w, const void *array)
+{
+    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, array));
+}
+
+mps_status mps__world_fetch_searched(const mps__world *w)
+{
+    return tell(w, mps__twins_fetch_searched((mps__twins *)&w->host.twins));
+}
+
+mps_status mps__world_fetch_lists(const mps__world *w)
+{
+    return tell(w, mps__twins_fetch_lists((mps__twins *)&w->host.twins));
+}
