@@ -8,7 +8,11 @@
  *
  * Near a particle the interface is a plane. Its normal is the mean direction of the pairs across
  * the interface, from heavy to light; it passes through the mean of their middles. Both means cover
- * the far radius less half a spacing, so that the lattice does not show.
+ * the far radius less half a spacing, so that the lattice does not show. They lie about the
+ * particle, or with `foot` about the foot of its perpendicular on the plane. About the particle the
+ * two sides of the interface weigh the same pairs differently, so that their planes do not agree:
+ * the densities of pairs then belong to no level, and stir fluid at rest. About the foot all
+ * particles over one place see one plane.
  *  - A particle beyond the plane of its own side: its distance is `least`.
  *  - Pairs in all directions (drops and threads of a few particles, |sum r_ij|/sum |r_ij| below
  *    `flat`): all distances are half a spacing, which gives (rho_i + rho_j)/2, W22 (17).
@@ -16,12 +20,17 @@
  * W22: Wen, Zhao & Wan 2022. */
 #include "helpers.h"
 
-enum { LEAST, FLAT, SETTINGS };
+enum { LEAST, FLAT, FOOT, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [LEAST] = {"least", "dp", "Smallest distance from the interface", MPS_TYPE_REAL, 0.1, 0.01,
                0.5},
     [FLAT] = {"flat", "-", "Smallest alignment of pairs that makes a plane", MPS_TYPE_REAL, 0.5,
-              0.0, 0.99}};
+              0.0, 0.99},
+    [FOOT] = {"foot", "-", "1: the plane is a mean about its point nearest to the particle",
+              MPS_TYPE_FLAG, 0.0, 0.0, 1.0}};
+
+/* Planes that are found about the foot, each with that of the one before. */
+static const int FEET = 2;
 
 /* Width of the range above `flat` in which the plane takes over from half a spacing. */
 static const double BLEND = 0.2;
@@ -52,6 +61,7 @@ typedef struct fields {
 
 /* Weighted sums over pairs across an interface. */
 typedef struct crossing {
+    double centre[3];          /* of the window, less x_i */
     double weight;             /* sum of the weights */
     double middle[3];          /* of the middles of the pairs, less x_i */
     double toward[3], length;  /* of the vectors to the lighter particle, and of their lengths */
@@ -103,7 +113,7 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
         double middle[3], r2 = 0;
         for (int d = 0; d < dim; d++) {
             middle[d] = at[d] + 0.5 * q.d[d];
-            r2 += middle[d] * middle[d];
+            r2 += (middle[d] - c->centre[d]) * (middle[d] - c->centre[d]);
         }
         if (r2 >= reach * reach) continue;
         const double near = 1.0 - sqrt(r2) / reach, w = near * near * q.w;
@@ -118,28 +128,62 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
     }
 }
 
+/* All pairs of the window. */
+MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i, crossing *c)
+{
+    static const double here[3] = {0};
+    const mps_stencil *t = &v->far;
+    const double reach = t->re - 0.5 * v->dp;
+    if (f->heavy[i]) add_pairs(dim, v, f, i, here, reach, c);
+    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
+        const int64_t j = mps_stencil_column(t, p);
+        if (f->heavy[j]) add_pairs(dim, v, f, j, mps_stencil_pair_dim(dim, t, i, p).d, reach, c);
+    }
+}
+
+/* A plane, from its sums. */
+typedef struct plane {
+    double normal[3]; /* toward the lighter side */
+    double height;    /* from i to the plane */
+    double aligned;   /* |sum r_ij|/sum |r_ij|; 0: no plane */
+} plane;
+
+MPS_ROW plane plane_of(const int dim, const crossing *c)
+{
+    plane o = {.normal = {0}};
+    double size = 0, height = 0;
+    for (int d = 0; d < dim; d++) {
+        size += c->toward[d] * c->toward[d];
+        height += c->middle[d] * c->toward[d];
+    }
+    if (!(size > 0)) return o;
+    size = sqrt(size);
+    o.height = height / (c->weight * size);
+    o.aligned = size / c->length;
+    for (int d = 0; d < dim; d++) o.normal[d] = c->toward[d] / size;
+    return o;
+}
+
 /* Distance of i from the interface; changes *rho, its "pressure_density", if i is solid. */
 MPS_ROW double distance_of(const int dim, const mps_view *v, const fields *f, int64_t i,
                            double *rho)
 {
-    static const double here[3] = {0};
-    const mps_stencil *t = &v->far;
-    const double *k = v->setting, reach = t->re - 0.5 * v->dp, unknown = 0.5 * v->dp;
+    const double *k = v->setting, unknown = 0.5 * v->dp;
     crossing c = {.lightest = INFINITY};
-    double size = 0, height = 0;
-    if (f->heavy[i]) add_pairs(dim, v, f, i, here, reach, &c);
-    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
-        const int64_t j = mps_stencil_column(t, p);
-        if (f->heavy[j]) add_pairs(dim, v, f, j, mps_stencil_pair_dim(dim, t, i, p).d, reach, &c);
+    gather(dim, v, f, i, &c);
+    plane found = plane_of(dim, &c);
+    for (int foot = 0; k[FOOT] > 0 && foot < FEET && found.aligned > 0; foot++) {
+        crossing about = {.lightest = INFINITY};
+        for (int d = 0; d < dim; d++) about.centre[d] = found.height * found.normal[d];
+        gather(dim, v, f, i, &about);
+        const plane next = plane_of(dim, &about);
+        if (!(next.aligned > 0)) break;
+        found = next;
+        c = about;
     }
-    for (int d = 0; d < dim; d++) {
-        size += c.toward[d] * c.toward[d];
-        height += c.middle[d] * c.toward[d];
-    }
-    if (!(size > 0)) return unknown;
-    size = sqrt(size);
-    height /= c.weight * size; /* from i to the plane, toward the lighter side */
-    const double trust = mps_smaller(1.0, mps_larger(0.0, (size / c.length - k[FLAT]) / BLEND));
+    if (!(found.aligned > 0)) return unknown;
+    double height = found.height;
+    const double trust = mps_smaller(1.0, mps_larger(0.0, (found.aligned - k[FLAT]) / BLEND));
     if (!mps_is_fluid(v, i) && trust > 0.5) *rho = height > 0 ? c.heaviest : c.lightest;
     if (*rho < c.heaviest) height = -height;
     return mps_larger(k[LEAST] * v->dp, trust * height + (1.0 - trust) * unknown);

@@ -6,7 +6,9 @@
  * Near walls and in corners of calm water, sum w r_ij would push the fluid without end, against the
  * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
  * `filter` of its kernel mean and keeps what varies from particle to particle. The part with the
- * strain rate stays whole: it repairs what a violent flow tears.
+ * strain rate stays whole: it repairs what a violent flow tears. With `calm` U_g is at most that
+ * many relative speeds max_j |u_j - u_i|: where nothing moves nothing wears the lattice, and a shift
+ * of a still fluid only drives a flow that takes it back.
  * Beside another density the U_g part also loses its part normal to the interface: the lattices of
  * both fluids would press on each other there, lift the heavy one, and work against the waves of the
  * interface.
@@ -16,14 +18,16 @@
 #include "helpers.h"
 #include "walls.h"
 
-enum { STRENGTH, LIMIT, TRANSPORT, FILTER, SETTINGS };
+enum { STRENGTH, LIMIT, TRANSPORT, FILTER, CALM, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [STRENGTH] = {"strength", "-", "c, strength of the shifting", MPS_TYPE_REAL, 1.0, 0.0, 10.0},
     [LIMIT] = {"limit", "dp", "Largest shift of a step", MPS_TYPE_REAL, 0.05, 0.0, 0.5},
     [TRANSPORT] = {"transport", "-", "1: shifts move the velocity along", MPS_TYPE_FLAG, 1.0, 0.0,
                    1.0},
     [FILTER] = {"filter", "-", "Share of the mean over neighbours that is removed in calm water",
-                MPS_TYPE_REAL, 0.8, 0.0, 1.0}};
+                MPS_TYPE_REAL, 0.8, 0.0, 1.0},
+    [CALM] = {"calm", "-", "Most that U_g counts, in relative speeds of the neighbours; 0: whole",
+              MPS_TYPE_REAL, 0.0, 0.0, 1000.0}};
 
 enum { VELOCITY, DENSITY, REGION, ASYMMETRY, DISPLACEMENT, USES };
 static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE},
@@ -159,7 +163,9 @@ MPS_ROW void shift_of(const int dim, const mps_view *view, const fields *f, int6
 {
     const double *k = view->setting;
     const double c = -k[STRENGTH] * view->dt * view->dp * dim / view->near.n0;
-    const double calm = c * view->velocity_scale, torn = c * sqrt(sums->most);
+    const double relative = sqrt(sums->most), whole = view->velocity_scale;
+    const double calm = c * (k[CALM] > 0 ? mps_smaller(whole, k[CALM] * relative) : whole);
+    const double torn = c * relative;
     const double smooth = sums->weight > 0 ? k[FILTER] * calm / sums->weight : 0;
     double n[3] = {0}, n2 = 0, vn = 0, v2 = 0;
     for (int d = 0; d < dim; d++) v[d] = (calm + torn) * sums->even[d] - smooth * sums->mean[d];
