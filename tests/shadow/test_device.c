@@ -275,7 +275,7 @@ static void costs(void **state)
     static const cost table[] = {
         {"imps", 2, {190, 210}, {12, 16}, {0.01, 2}, {13, 20}},
         {"imps", 3, {192, 212}, {13, 17}, {0.005, 1}, {3, 6}},
-        {"mmps", 2, {154, 214}, {12, 34}, {0.005, 125}, {1, 120}},
+        {"mmps", 2, {180, 200}, {21, 25}, {5, 11}, {26, 36}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
