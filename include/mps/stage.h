@@ -354,18 +354,18 @@ static inline int64_t mps_grid_bucket(const mps_grid *grid, const int64_t cell[3
 MPS_API int mps_stage_grid(mps_stage *s, double side, mps_grid *grid);
 
 /** Place of a point of the lab in the frame of the tank, and the velocity of the rigid tank there
- *  over this step, as "velocity" has it for a solid at this point. In MPS_LIMIT it is the velocity
- *  at the beginning of the step.
+ *  over this step, as "velocity" has it for a solid there; in MPS_LIMIT that at its beginning.
  *  @param x  [dim] point, e.g. v->x + i * dim [m] @param place  NULL, or [dim] out [m]
  *  @param velocity  NULL, or [dim] out, in the lab [m/s] */
 static inline void mps_view_tank(const mps_view *v, const double *x, double *place,
                                  double *velocity)
 {
     const mps_tank_pose *k = &v->tank;
+    const int dim = v->dim == 2 ? 2 : 3; /* at most 3 rounds, so that loops unroll */
     const double *R = k->rotation, *N = k->next_rotation;
     double r[3] = {0, 0, 0}, arm[3] = {0, 0, 0}, turned[3];
-    for (int d = 0; d < 3 && d < v->dim; d++) r[d] = x[d] - k->centre[d] - k->shift[d];
-    for (int d = 0; d < 3 && d < v->dim; d++) {
+    for (int d = 0; d < dim; d++) r[d] = x[d] - k->centre[d] - k->shift[d];
+    for (int d = 0; d < dim; d++) {
         const double X = k->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
         arm[d] = X - k->centre[d];
         if (place) place[d] = X;
@@ -374,7 +374,7 @@ static inline void mps_view_tank(const mps_view *v, const double *x, double *pla
     for (int d = 0; d < 3; d++)
         turned[d] = k->has_next ? N[3 * d] * arm[0] + N[3 * d + 1] * arm[1] + N[3 * d + 2] * arm[2]
                                 : R[3 * d] * arm[0] + R[3 * d + 1] * arm[1] + R[3 * d + 2] * arm[2];
-    for (int d = 0; d < 3 && d < v->dim; d++) {
+    for (int d = 0; d < dim; d++) {
         const int e = (d + 1) % 3, f = (d + 2) % 3;
         velocity[d] = k->has_next
                           ? (k->centre[d] + k->next_shift[d] + turned[d] - x[d]) / v->dt

@@ -131,7 +131,7 @@ MPS_ROW row_mean mean_before(const int dim, const mps_view *v, const fields *f, 
     row_mean m = {0};
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int64_t j = mps_stencil_column(t, p);
-        double tank[3] = {0};
+        double tank[3];
         if (!mps_is_fluid(v, j)) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
         const double share = share_of(dim, v, &q, v->x + i * dim, v->x + j * dim, normal);
@@ -165,7 +165,7 @@ MPS_ROW void lose_layer(const int dim, const fields *f, int64_t i)
 /* Acceleration of a full first row before wall i, by w and the layer at the beginning of the step. */
 MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    double normal[3], area, tank[3] = {0};
+    double normal[3], area, tank[3];
     mps__layers of;
     if (!normal_of(dim, v, i, normal, &area)) return;
     const row_mean m = mean_before(dim, v, f, NULL, i, normal);
@@ -307,7 +307,7 @@ MPS_ROWS(give_rows, give, fields)
 /* The layer follows the flow of this step, and turns with the tank. */
 MPS_ROW void follow(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
-    double normal[3], area, tank[3] = {0}, du[3] = {0};
+    double normal[3], area, tank[3], du[3] = {0};
     mps__layers of;
     if (!normal_of(dim, v, i, normal, &area) || f->total[i] == 0) return;
     const row_mean m = mean_before(dim, v, f, NULL, i, normal);

@@ -57,13 +57,13 @@ static mps_sim *water_below_air(int foot, double strength)
 /* Moves all fluid by up to 0.1 dp along each axis. */
 static void disorder(mps_sim *sim)
 {
-    const int32_t *kind;
+    const int32_t *kind = NULL;
     uint32_t random = 1;
     mps_lease x = {.struct_size = sizeof x};
     OK(sim, tags_peek(sim, NULL, &kind, NULL, NULL));
     assert_non_null(kind);
     OK(sim, mps_lease_begin(sim, "position", MPS_WRITE, &x));
-    for (int64_t k = 0; k < 2 * x.count; k++) {
+    for (int64_t k = 0; kind && k < 2 * x.count; k++) {
         random = random * 1664525u + 1013904223u;
         if (kind[k / 2] == MPS_FLUID) x.data[k] += 0.1 * DP * (random / 0x1p31 - 1);
     }
@@ -73,13 +73,14 @@ static void disorder(mps_sim *sim)
 /* [J/m] */
 static double kinetic_energy(mps_sim *sim)
 {
-    const int32_t *kind, *phase;
+    const int32_t *kind = NULL, *phase = NULL;
     double sum = 0;
     mps_lease u = {.struct_size = sizeof u};
     OK(sim, tags_peek(sim, NULL, &kind, &phase, NULL));
-    assert_true(kind && phase);
+    assert_non_null(kind);
+    assert_non_null(phase);
     OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &u));
-    for (int64_t i = 0; i < u.count; i++)
+    for (int64_t i = 0; kind && phase && i < u.count; i++)
         if (kind[i] == MPS_FLUID)
             sum += 0.5 * RHO[phase[i]] * DP * DP *
                    (u.data[2 * i] * u.data[2 * i] + u.data[2 * i + 1] * u.data[2 * i + 1]);
