@@ -74,7 +74,7 @@ void shadow_heap(mps_sim *sim)
 
 /* ---- memory of the device ---- */
 
-/* Rooms are closed but in the functions of the device; they lie one behind the other, so that one call opens or closes all. */
+/* Rooms are closed but in the functions of the device, until all loops of a step have run often; they lie one behind the other, so that one call opens or closes all. */
 static const size_t ARENA = (size_t)1 << 32;
 
 /* Whole pages. */
@@ -109,7 +109,12 @@ static void *room(void *self, uint64_t bytes)
     assert_true(s->arena != MAP_FAILED);
     char *begin = gap_for(s, pages(bytes));
     assert_true(begin && begin + pages(bytes) <= s->arena + ARENA);
-    if (begin + pages(bytes) > s->arena_end) s->arena_end = begin + pages(bytes);
+    if (begin + pages(bytes) > s->arena_end) {
+        if (s->open)
+            mprotect(s->arena_end, (size_t)(begin + pages(bytes) - s->arena_end),
+                     PROT_READ | PROT_WRITE);
+        s->arena_end = begin + pages(bytes);
+    }
     while (k < SHADOW_ROOMS && s->room[k].begin) k++;
     assert_true(k < SHADOW_ROOMS);
     s->room[k].begin = begin;
@@ -125,8 +130,10 @@ static void give(void *self, void *begin)
         if (s->room[k].begin != begin) continue;
         s->room[k].begin = NULL;
         s->rooms--;
-        if (s->rooms == 0) munmap(s->arena, ARENA);
-        if (s->rooms == 0) s->arena = NULL;
+        if (s->rooms > 0) return;
+        munmap(s->arena, ARENA);
+        s->arena = s->arena_end = NULL;
+        s->open = false;
         return;
     }
     fail_msg("memory is given back that is none");
@@ -144,12 +151,15 @@ static int room_of(const shadow *s, const void *address)
 
 static void protect(const shadow *s, int k, int access)
 {
-    if (s->room[k].begin) mprotect(s->room[k].begin, s->room[k].bytes, access);
+    if (s->room[k].begin && !s->open) mprotect(s->room[k].begin, s->room[k].bytes, access);
 }
 
-static void protect_all(const shadow *s, int access)
+static void open_all(shadow *s, bool open)
 {
-    if (s->arena_end > s->arena) mprotect(s->arena, (size_t)(s->arena_end - s->arena), access);
+    const size_t bytes = (size_t)(s->arena_end - s->arena);
+    if (open == s->open) return;
+    if (bytes > 0) mprotect(s->arena, bytes, open ? PROT_READ | PROT_WRITE : PROT_NONE);
+    s->open = open;
 }
 
 /* ---- copies ---- */
@@ -246,7 +256,8 @@ int32_t shadow_seen(const shadow *s, const char *file, const char *name)
     return s->seen[slot_of(file, name)];
 }
 
-/* Whether the memory of the handle is closed for a launch: for the first ones of a loop, because closing takes longer than most loops. */
+/* Whether the memory of the handle is closed for a launch, and that of the device behind it: for the first ones of a loop, because closing takes longer than
+ * most loops. */
 static bool closes(shadow *s, const mps_launch *l)
 {
     return s->seen[slot_of(l->file, l->name)]++ < SHADOW_CLOSED;
@@ -258,12 +269,12 @@ static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
     assert_int_equal(l->struct_size, sizeof *l);
     assert_true(l->n > 0 && (l->dim == 2 || l->dim == 3) && !strchr(l->file, '/'));
     s->launches++;
-    protect_all(s, PROT_READ | PROT_WRITE);
+    open_all(s, true);
     const bool closed = closes(s, l);
     if (closed) heap_protect(PROT_NONE);
     l->run(l->host, 0, l->n, sum, maximum);
     if (closed) heap_protect(PROT_READ | PROT_WRITE);
-    protect_all(s, PROT_NONE);
+    open_all(s, !closed);
 }
 
 /* Whether the next launch fails, or any from now on. */

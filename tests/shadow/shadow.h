@@ -6,7 +6,7 @@
 #include "sim.h"
 #include <mps/device.h>
 
-enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 50 };
+enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 6 };
 
 typedef struct shadow {
     mps_device_ops ops;
@@ -19,6 +19,7 @@ typedef struct shadow {
     int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
     int64_t dies_at;                      /* launch from which on all does */
     char *arena, *arena_end;              /* memory of all rooms; NULL: there are none */
+    bool open;                            /* it is not closed: the loop before has run often */
     int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
     struct {
         char *begin;
