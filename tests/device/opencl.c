@@ -278,13 +278,32 @@ static void differ(opencl *o, opencl_kernel *k, const char *what, size_t at, con
              (long long)k->launches, what, at, a, b);
 }
 
+/* Trees of rows: threads that meet in them leave other ways to the same roots. */
+static bool same_trees(const opencl_kernel *k, const opencl_room *r)
+{
+    const int32_t n = (int32_t)(r->bytes / sizeof(int32_t));
+    int32_t *const tree[2] = {(int32_t *)(void *)r->begin, (int32_t *)(void *)r->host};
+    if (!strstr(k->name, "bodies_there__") && !strstr(k->name, "levels__")) return false;
+    for (int32_t i = 0; i < n; i++) {
+        int32_t root[2];
+        for (int side = 0; side < 2; side++) {
+            const int32_t parent = tree[side][i];
+            if (parent < 0 || parent > i) return false;
+            root[side] = i;
+            while (tree[side][root[side]] != root[side]) root[side] = tree[side][root[side]];
+        }
+        if (root[0] != root[1]) return false;
+    }
+    return true;
+}
+
 static void compare_rooms(opencl *o, opencl_kernel *kernel)
 {
     for (int k = 0; k < OPENCL_ROOMS; k++) {
         const opencl_room *r = &o->room[k];
         size_t at = 0;
         char what[40];
-        if (!r->seen || memcmp(r->begin, r->host, r->bytes) == 0) continue;
+        if (!r->seen || memcmp(r->begin, r->host, r->bytes) == 0 || same_trees(kernel, r)) continue;
         while (r->begin[at] == r->host[at]) at++;
         at -= at % sizeof(double);
         snprintf(what, sizeof what, "an array of %zu bytes", r->bytes);

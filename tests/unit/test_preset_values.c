@@ -22,7 +22,7 @@ static const struct {
              "gradient.corrected second_order=0; "
              "load.reaction cover=1; "
              "collision.pair distance=0.6 restitution=0 wall_distance=0.5; "
-             "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8; "},
+             "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8 calm=0; "},
     {"imps.paper",
      "surface.asymmetry low=0.8 high=0.97 share=0.9 spray=0 walls=1 complete=0 lone=0.8 "
      "low_share=0.4 contact=0 contact_low=0.95 contact_share=0.55 film=100; "
@@ -46,7 +46,7 @@ static const struct {
              "load.reaction cover=1; "
              "drag.lone company=0.333333333 times=3; "
              "collision.pair distance=0.6 restitution=0 wall_distance=0.5; "
-             "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8; "},
+             "shift.tangential strength=1 limit=0.05 transport=1 filter=0.8 calm=0; "},
     {"mmps.paper", "wall.extrapolate; "
                    "density.smooth self=100; "
                    "viscosity.pair theta=-1 slip=0 stress=0 mirror=0; "
