@@ -35,7 +35,7 @@ static const struct {
              "reference.lid layer=0.5; "
              "wall.half; "
              "moments.bounded floor=0.5 surface=0.4 torn=0.7; "
-             "density.interface least=0.1 flat=0.5; "
+             "density.interface least=0.1 flat=0.5 foot=0; "
              "viscosity.pair theta=-1 slip=0 stress=1 mirror=1; "
              "dissipation.radial alpha=0.1 beta=1 viscous=1; "
              "tension.jump sigma=0.0727 radius=5.1 threshold=0.02; "
