@@ -75,7 +75,7 @@ def highest(s: Signals, sensors: list[Impulse], lo: float, hi: float, length: fl
 
 
 def intervals(t: np.ndarray, y: np.ndarray, threshold: float, window: float, after: float) -> list[tuple[float, float]]:
-    """Begins and ends of the events of a signal; those without a time `after` them in the record are left out."""
+    """Begins and ends of the events of a signal; those that have not ended in the record, or have no time `after` their begin in it, are left out."""
     above = y >= threshold
     up = np.flatnonzero(above[1:] & ~above[:-1]) + 1
     down = np.flatnonzero(~above[1:] & above[:-1]) + 1
@@ -87,7 +87,7 @@ def intervals(t: np.ndarray, y: np.ndarray, threshold: float, window: float, aft
             found[-1] = (found[-1][0], last)
         else:
             found.append((t[first], last))
-    return [e for e in found if e[1] + after < t[-1]]
+    return [e for e in found if max(e[0] + after, e[1]) < t[-1]]
 
 
 def find(s: Signals, walls: tuple[str, ...], depth: float, period: float, time_scale: float) -> list[Event]:
