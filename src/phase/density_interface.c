@@ -110,7 +110,7 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
             f->density[mps_stencil_column(t, p)] >= f->density[j])
             continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, j, p);
-        double middle[3], r2 = 0;
+        double middle[3] = {0}, r2 = 0;
         for (int d = 0; d < dim; d++) {
             middle[d] = at[d] + 0.5 * q.d[d];
             r2 += (middle[d] - c->centre[d]) * (middle[d] - c->centre[d]);

@@ -98,7 +98,8 @@ static mps__cg_numbers fetch(const mps__cg_solving *s)
     mps__device_download(s->device, &n, &s->there->numbers, sizeof n);
     if (hint) hint->seen = hint->look ? n.seen : NAN;
     if (hint) hint->refused = n.stop == REFUSED;
-    return s->device->failed ? (mps__cg_numbers){.stop = BROKEN} : n;
+    if (s->device->failed) n = (mps__cg_numbers){.stop = BROKEN};
+    return n;
 }
 
 /* A run from x = 0, which may have stopped before it begins. `reason`: of a failure of the host, which ends it too. */
