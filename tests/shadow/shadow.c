@@ -74,7 +74,8 @@ void shadow_heap(mps_sim *sim)
 
 /* ---- memory of the device ---- */
 
-/* Rooms are closed but in the functions of the device, until all loops of a step have run often; they lie one behind the other, so that one call opens or closes all. */
+/* Only the functions of the device open its rooms. Behind a loop that has run often they stay open. Rooms lie one behind the other, so that one call
+ * opens or closes all. */
 static const size_t ARENA = (size_t)1 << 32;
 
 /* Whole pages. */

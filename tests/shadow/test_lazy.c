@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields stay at a device until the host asks for them. The shadow makes copies of the host that are older NaN: whoever looks at one without asking
- * finds that. */
+/* Fields stay on a device until the host asks for them. Where the values of the host are out of date, the shadow writes NaN over them: code that reads
+ * a field without asking finds NaN. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <math.h>
