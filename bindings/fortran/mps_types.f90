@@ -21,6 +21,7 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_FLUID = 0
     integer(c_int32_t), parameter :: MPS_WALL = 1
     integer(c_int32_t), parameter :: MPS_DUMMY = 2
+    integer(c_int32_t), parameter :: MPS_PHASES = 16
     integer(c_int32_t), parameter :: MPS_LOG_INFO = 0
     integer(c_int32_t), parameter :: MPS_LOG_WARNING = 1
     integer(c_int32_t), parameter :: MPS_MOVE_X = 0

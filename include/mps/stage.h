@@ -181,6 +181,8 @@ typedef struct mps_view {
     mps_flux flux;
     /** The rigid tank. */
     mps_tank_pose tank;
+    /** From MPS_LIMIT on: no particle was faster when the step began; INFINITY: not known [m/s] */
+    double fastest;
 } mps_view;
 
 /** Whether row i is fluid. */
@@ -286,6 +288,12 @@ MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, const mps_sums *ad
 /** Maxima over all rows. @param count  1..16 @param maxima  [count] out; -INFINITY without rows */
 MPS_API void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *raise,
                            const void *fields, double *maxima);
+
+/** Densities of the fluid, by phases. Most steps need no loop over the rows for them. All ranks
+ *  call it.
+ *  @param least,greatest  [MPS_PHASES] out: of the fluid of each phase, 0 for a phase without fluid; or
+ *         NULL [kg/m3] */
+MPS_API void mps_stage_densities(const mps_stage *s, double *least, double *greatest);
 
 /** Mark rows that have a near neighbour among the member rows. A row without pairs (solids away
  *  from fluid, dummies) is not marked.

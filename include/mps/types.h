@@ -33,6 +33,12 @@ enum {
     MPS_DUMMY = 2
 };
 
+/** Phases of the fluid. */
+enum {
+    /** So many at most, by their numbers from 0 on. */
+    MPS_PHASES = 16
+};
+
 /** Memory callbacks of a handle; set both or neither. */
 typedef struct mps_allocator {
     /** At least `size` bytes aligned as by malloc, or NULL. */

@@ -22,14 +22,6 @@ typedef struct fields {
     double enough, lightest; /* limit of the kernel sum; least density of the fluid */
 } fields;
 
-MPS_ROW void lightest_row(const int dim, const mps_view *v, const fields *f, int64_t i,
-                          double *most)
-{
-    (void)dim;
-    if (mps_is_fluid(v, i)) most[0] = mps_larger(most[0], -f->density[i]);
-}
-MPS_SUMS(lightest_rows, lightest_row, fields)
-
 /* The sum above, up to `enough`. */
 MPS_ROW double sum_about(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
@@ -53,12 +45,14 @@ MPS_ROWS(spray_rows, spray_row, fields)
 
 static int find_spray(mps_stage *s)
 {
-    double most;
+    double rho[MPS_PHASES];
     fields f = {.density = s->data[DENSITY],
                 .region = s->data[REGION],
-                .enough = s->view->setting[SPRAY] * s->view->near.n0};
-    mps_stage_max(s, 1, &lightest_rows, &f, &most);
-    f.lightest = -most;
+                .enough = s->view->setting[SPRAY] * s->view->near.n0,
+                .lightest = INFINITY};
+    mps_stage_densities(s, rho, NULL);
+    for (int p = 0; p < MPS_PHASES; p++)
+        if (rho[p] > 0) f.lightest = mps_smaller(f.lightest, rho[p]);
     mps_stage_rows(s, &spray_rows, &f);
     return 0;
 }

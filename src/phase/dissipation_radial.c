@@ -25,7 +25,7 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
 typedef struct fields {
     const double *velocity, *density;
     double *acceleration;
-    double half[MPS__PHASE_LIMIT]; /* half of what a phase adds to alpha U_g of a pair [m/s] */
+    double half[MPS_PHASES]; /* half of what a phase adds to alpha U_g of a pair [m/s] */
 } fields;
 
 /* Fluid neighbours of a particle, array by array: roots and divisions run several at a time. */
@@ -94,9 +94,9 @@ static int damp_pairs(mps_stage *s)
                 .density = s->data[DENSITY],
                 .acceleration = s->data[ACCELERATION]};
     const double *k = v->setting;
-    double rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, f.density, rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++) {
+    double rho[MPS_PHASES];
+    mps_stage_densities(s, rho, NULL);
+    for (int p = 0; p < MPS_PHASES; p++) {
         const double viscous = k[VISCOUS] * v->dim * v->viscosity[p];
         f.half[p] = 0.5 * (k[ALPHA] * v->velocity_scale -
                            (rho[p] > 0 ? viscous / (rho[p] * v->dp) : 0.0));

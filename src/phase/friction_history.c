@@ -75,9 +75,9 @@ typedef struct fields {
     const double *density, *tank;
     double *velocity, *acceleration, *start;
     double *layer[LAYERS];
-    double *friction;                 /* [n*2] what this model adds to the acceleration */
-    double cosine, sine;              /* of the angle of the tank in this step */
-    mps__layers of[MPS__PHASE_LIMIT]; /* of phases */
+    double *friction;           /* [n*2] what this model adds to the acceleration */
+    double cosine, sine;        /* of the angle of the tank in this step */
+    mps__layers of[MPS_PHASES]; /* of phases */
 } fields;
 
 /* Layers of the phases in this step. @return non-zero after a failure */
@@ -85,7 +85,7 @@ static int begin(mps_stage *s, fields *f)
 {
     const mps_view *v = s->view;
     const double *R = v->tank.rotation, *N = v->tank.next_rotation;
-    double rho[MPS__PHASE_LIMIT];
+    double rho[MPS_PHASES];
     if (v->dim != 2)
         return mps_stage_fail(s, "is for thin tanks in 2-D: remove the model \"friction\" in 3-D, "
                                  "where the side walls have particles");
@@ -97,8 +97,8 @@ static int begin(mps_stage *s, fields *f)
     if (!f->friction) return 1;
     f->cosine = N[0] * R[0] + N[1] * R[1];
     f->sine = N[3] * R[0] + N[4] * R[1];
-    mps__phase_densities(s, f->density, rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
+    mps_stage_densities(s, rho, NULL);
+    for (int p = 0; p < MPS_PHASES; p++)
         if (rho[p] > 0)
             mps__layers_of(v->viscosity[p] / rho[p], v->setting[WIDTH], v->dt, &f->of[p]);
     return 0;

@@ -7,29 +7,30 @@ typedef struct speeds {
     double phase;
 } speeds;
 
-/* Maxima over the gas: of |u|^2, of 1. */
+/* The maximum over the gas of |u|^2. */
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
     if (!mps__is_gas(v, i, f->phase)) return;
     double square = 0;
     for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
     most[0] = mps_larger(most[0], square);
-    most[1] = 1;
 }
 MPS_SUMS(raise_speed_rows, raise_speed, speeds)
 
 int mps__gas_check(mps_stage *s, double phase, double sound, const double *velocity)
 {
-    double most[2];
-    mps_stage_max(s, 2, &raise_speed_rows, &(speeds){velocity, phase}, most);
-    if (!(most[1] > 0))
+    double rho[MPS_PHASES], most;
+    mps_stage_densities(s, rho, NULL);
+    if (!(rho[(int)phase] > 0))
         return mps_stage_fail(
             s,
             "phase %d has no fluid particle: add the gas, or set gas.phase to it; "
             "with liquids alone remove the model \"gas\"; one liquid with a "
             "surface: preset \"imps\"",
             (int)phase);
-    const double fastest = sqrt(mps_larger(most[0], 0));
+    if (s->view->fastest < sound) return 0;
+    mps_stage_max(s, 1, &raise_speed_rows, &(speeds){velocity, phase}, &most);
+    const double fastest = sqrt(mps_larger(most, 0));
     if (!(fastest < sound))
         return mps_stage_fail(
             s,
@@ -104,26 +105,6 @@ double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, doubl
     return v->dim == 2 ? wall_share(2, v, region, i, phase) : wall_share(3, v, region, i, phase);
 }
 
-static inline bool in_equation(const mps_view *v, const int32_t *region, int64_t i)
-{
-    return !mps_is_dummy(v, i) && mps_region_of(region, i) < MPS_REGION_SURFACE;
-}
-
-/* Sums: of the sources in the equation, of their rows, of rows of the gas, of fixed rows. */
-enum { SOURCES, ROWS, GAS, FIXED, SUMS };
-
-MPS_ROW void add_source(const int dim, const mps_view *v, const mps__gas_rows *f, int64_t i,
-                        double *sums)
-{
-    (void)dim;
-    if (f->condition[i] == MPS_ROW_FIXED) sums[FIXED]++;
-    if (!in_equation(v, f->region, i)) return;
-    sums[SOURCES] += f->source[i];
-    sums[ROWS]++;
-    if (mps__is_gas(v, i, f->phase)) sums[GAS]++;
-}
-MPS_SUMS(add_source_rows, add_source, mps__gas_rows)
-
 /* What mps__gas_conserve() subtracts: from the gas, from each row. */
 typedef struct balance {
     mps__gas_rows rows;
@@ -133,7 +114,7 @@ typedef struct balance {
 MPS_ROW void subtract_balance(const int dim, const mps_view *v, const balance *f, int64_t i)
 {
     (void)dim;
-    if (!in_equation(v, f->rows.region, i)) return;
+    if (!mps__gas_in_equation(v, f->rows.region, i)) return;
     f->rows.source[i] += (mps__is_gas(v, i, f->rows.phase) ? f->gas : 0.0) - f->part;
 }
 MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
@@ -145,17 +126,17 @@ MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
  *    0.2 % of rho g h into the liquid.
  *  - What is larger, as a single row asks for in an impact: taken from the gas alone. As a source
  *    in the whole liquid it would be a pressure of many kPa for a step. */
-void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, double surplus)
+void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, const double *sums)
 {
     const mps_view *v = s->view;
     static const double share = 0.1;   /* of the surplus that a step removes */
     static const double small = 0.005; /* bound of the shared rest, in g/dp */
     const double bound = small * v->velocity_scale * v->velocity_scale / (v->dp * v->dp);
-    double sums[SUMS];
-    mps_stage_sum(s, SUMS, &add_source_rows, rows, sums);
-    if (sums[FIXED] > 0 || sums[GAS] == 0) return;
-    const double part = mps_smaller(mps_larger(sums[SOURCES] / sums[ROWS], -bound), bound);
-    const double rest = sums[SOURCES] - part * sums[ROWS];
-    const double own = (share * surplus / (v->dt * v->dt) - rest) / sums[GAS];
+    const double all = sums[MPS__GAS_SOURCES], count = sums[MPS__GAS_ROWS];
+    if (sums[MPS__GAS_FIXED] > 0 || sums[MPS__GAS_OWN] == 0) return;
+    const double part = mps_smaller(mps_larger(all / count, -bound), bound);
+    const double rest = all - part * count,
+                 wanted = share * sums[MPS__GAS_SURPLUS] / (v->dt * v->dt);
+    const double own = (wanted - rest) / sums[MPS__GAS_OWN];
     mps_stage_rows(s, &subtract_balance_rows, &(balance){*rows, own, part});
 }

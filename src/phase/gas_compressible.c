@@ -18,7 +18,7 @@
 enum { PHASE, SOUND, PRINTED, CONSERVE, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
-               MPS__PHASE_LIMIT - 1},
+               MPS_PHASES - 1},
     [SOUND] = {"sound", "m/s", "Speed of sound", MPS_TYPE_REAL, 340.0, 1.0, 1e4},
     [PRINTED] = {"printed", "-", "1: W22 (26) as published, which loses the old pressure",
                  MPS_TYPE_FLAG, 0.0, 0.0, 1.0},
@@ -50,12 +50,12 @@ static const mps_use uses[USES] = {
 static const double LEAST = -0.9;
 
 typedef struct fields {
+    mps__gas_rows rows;
     const double *pressure, *density;
-    const int32_t *region;
-    double *denser;             /* [n] (n - n0)/n0 of the gas */
-    double *gas_shift, *source; /* [n] */
-    double whole;               /* 1/(Cs^2 dt^2) */
-    double own;                 /* density of the gas */
+    double *denser;    /* [n] (n - n0)/n0 of the gas */
+    double *gas_shift; /* [n] */
+    double whole;      /* 1/(Cs^2 dt^2) */
+    double own;        /* density of the gas */
 } fields;
 
 /* (n - n0)/n0 of a particle at its pressure. */
@@ -85,40 +85,40 @@ static int expect_volumes(mps_stage *s)
     return mps__gas_expect(s, f.denser, s->data[EXPECT_VOLUME], s->data[EXPECT_NUMBER]);
 }
 
-/* Sum over the gas: volume by the law less 1, in cells of the lattice. */
-MPS_ROW void add_surplus(const int dim, const mps_view *v, const fields *f, int64_t i, double *sum)
+/* Sums of mps__gas_conserve(). */
+MPS_ROW void add_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *sums)
 {
     (void)dim;
-    if (mps__is_gas(v, i, v->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(v, f, i)) - 1.0;
+    mps__gas_add(v, &f->rows, i, sums);
+    if (mps__is_gas(v, i, v->setting[PHASE]))
+        sums[MPS__GAS_SURPLUS] += 1.0 / (1.0 + by_law(v, f, i)) - 1.0;
 }
-MPS_SUMS(add_surplus_rows, add_surplus, fields)
+MPS_SUMS(add_rows, add_row, fields)
 
 MPS_ROW void compress(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
     const double *k = v->setting, rho = mps_is_fluid(v, i) ? f->density[i] : f->own;
-    const double stiffness = mps__gas_share(v, f->region, i, k[PHASE]) * f->whole / rho;
+    const double stiffness = mps__gas_share(v, f->rows.region, i, k[PHASE]) * f->whole / rho;
     f->gas_shift[i] += stiffness;
-    f->source[i] += k[PRINTED] > 0 ? 0.0 : stiffness * f->pressure[i];
+    f->rows.source[i] += k[PRINTED] > 0 ? 0.0 : stiffness * f->pressure[i];
 }
 MPS_ROWS(compress_rows, compress, fields)
 
 static int compress_gas(mps_stage *s)
 {
     const double *k = s->view->setting;
-    fields f = {.pressure = s->data[PRESSURE],
+    fields f = {.rows = {s->data[REGION], s->data[CONDITION], s->data[SOURCE], k[PHASE]},
+                .pressure = s->data[PRESSURE],
                 .density = s->data[DENSITY],
-                .region = s->data[REGION],
                 .gas_shift = s->data[GAS_SHIFT],
-                .source = s->data[SOURCE],
                 .whole = 1.0 / (k[SOUND] * k[SOUND] * s->view->dt * s->view->dt)};
-    double surplus, rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, f.density, rho);
+    double sums[MPS__GAS_SUMS], rho[MPS_PHASES];
+    mps_stage_densities(s, rho, NULL);
     f.own = rho[(int)k[PHASE]];
     if (k[CONSERVE] > 0 && !(k[PRINTED] > 0)) {
-        mps__gas_rows rows = {f.region, s->data[CONDITION], f.source, k[PHASE]};
-        mps_stage_sum(s, 1, &add_surplus_rows, &f, &surplus);
-        mps__gas_conserve(s, &rows, surplus);
+        mps_stage_sum(s, MPS__GAS_SUMS, &add_rows, &f, sums);
+        mps__gas_conserve(s, &f.rows, sums);
     }
     mps_stage_rows(s, &compress_rows, &f);
     return 0;

@@ -12,25 +12,17 @@
 enum { PHASE, AMBIENT, EXPONENT, CONSERVE, SETTINGS };
 static const mps_setting settings[SETTINGS] = {
     [PHASE] = {"phase", "-", "Number of the phase that is a gas", MPS_TYPE_INTEGER, 1.0, 0.0,
-               MPS__PHASE_LIMIT - 1},
+               MPS_PHASES - 1},
     [AMBIENT] = {"ambient", "Pa", "Pressure of the ambient air", MPS_TYPE_REAL, 101325.0, 1.0, 1e9},
     [EXPONENT] = {"exponent", "-", "Exponent of the gas law; 1.4: air, 1: isothermal",
                   MPS_TYPE_REAL, 1.4, 1.0, 10.0},
     [CONSERVE] = {"conserve", "-", "1: the gas in a closed tank keeps its volume", MPS_TYPE_FLAG,
                   1.0, 0.0, 1.0}};
 
-enum {
-    EXPECT_VELOCITY,
-    EXPECT_PRESSURE,
-    EXPECT_DENSITY,
-    EXPECT_VOLUME,
-    EXPECT_NUMBER,
-    EXPECT_USES
-};
+enum { EXPECT_VELOCITY, EXPECT_PRESSURE, EXPECT_VOLUME, EXPECT_NUMBER, EXPECT_USES };
 static const mps_use expect_uses[EXPECT_USES] = {
     [EXPECT_VELOCITY] = {"velocity", MPS_USE_READ},
     [EXPECT_PRESSURE] = {"pressure", MPS_USE_READ},
-    [EXPECT_DENSITY] = {"density", MPS_USE_READ},
     [EXPECT_VOLUME] = {"volume_deviation", MPS_USE_CHANGE},
     [EXPECT_NUMBER] = {"number_density", MPS_USE_CHANGE}};
 
@@ -43,11 +35,11 @@ static const mps_use uses[USES] = {[PRESSURE] = {"pressure", MPS_USE_READ},
                                    [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
 
 typedef struct fields {
+    mps__gas_rows rows;
     const double *pressure;
-    const int32_t *region;
-    double *denser;                       /* [n] (n - n0)/n0 of the gas */
-    double *gas_shift, *gas_law, *source; /* [n] */
-    double whole;                         /* 1/(e P dt^2) */
+    double *denser;              /* [n] (n - n0)/n0 of the gas */
+    double *gas_shift, *gas_law; /* [n] */
+    double whole;                /* 1/(e P dt^2) */
 } fields;
 
 /* (n - n0)/n0 of a particle at its pressure. */
@@ -67,8 +59,8 @@ MPS_ROWS(find_denser_rows, find_denser, fields)
 static int expect_volumes(mps_stage *s)
 {
     const double *k = s->view->setting;
-    double rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, s->data[EXPECT_DENSITY], rho);
+    double rho[MPS_PHASES];
+    mps_stage_densities(s, rho, NULL);
     const double own = rho[(int)k[PHASE]];
     const double sound = own > 0 ? sqrt(k[EXPONENT] * k[AMBIENT] / own) : INFINITY;
     if (mps__gas_check(s, k[PHASE], sound, s->data[EXPECT_VELOCITY])) return 1;
@@ -78,40 +70,40 @@ static int expect_volumes(mps_stage *s)
     return mps__gas_expect(s, f.denser, s->data[EXPECT_VOLUME], s->data[EXPECT_NUMBER]);
 }
 
-/* Sum over the gas: volume by the law less 1, in cells of the lattice. */
-MPS_ROW void add_surplus(const int dim, const mps_view *v, const fields *f, int64_t i, double *sum)
+/* Sums of mps__gas_conserve(). */
+MPS_ROW void add_row(const int dim, const mps_view *v, const fields *f, int64_t i, double *sums)
 {
     (void)dim;
-    if (mps__is_gas(v, i, v->setting[PHASE])) sum[0] += 1.0 / (1.0 + by_law(v, f, i)) - 1.0;
+    mps__gas_add(v, &f->rows, i, sums);
+    if (mps__is_gas(v, i, v->setting[PHASE]))
+        sums[MPS__GAS_SURPLUS] += 1.0 / (1.0 + by_law(v, f, i)) - 1.0;
 }
-MPS_SUMS(add_surplus_rows, add_surplus, fields)
+MPS_SUMS(add_rows, add_row, fields)
 
 MPS_ROW void compress(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
     const double *k = v->setting;
-    const double stiffness = mps__gas_share(v, f->region, i, k[PHASE]) * f->whole;
+    const double stiffness = mps__gas_share(v, f->rows.region, i, k[PHASE]) * f->whole;
     if (stiffness == 0) return;
     f->gas_shift[i] += stiffness;
     f->gas_law[i] = k[AMBIENT];
-    f->source[i] += stiffness * mps_ppe_law(k[AMBIENT], f->pressure[i], NULL);
+    f->rows.source[i] += stiffness * mps_ppe_law(k[AMBIENT], f->pressure[i], NULL);
 }
 MPS_ROWS(compress_rows, compress, fields)
 
 static int compress_gas(mps_stage *s)
 {
     const double *k = s->view->setting;
-    fields f = {.pressure = s->data[PRESSURE],
-                .region = s->data[REGION],
+    fields f = {.rows = {s->data[REGION], s->data[CONDITION], s->data[SOURCE], k[PHASE]},
+                .pressure = s->data[PRESSURE],
                 .gas_shift = s->data[GAS_SHIFT],
                 .gas_law = s->data[GAS_LAW],
-                .source = s->data[SOURCE],
                 .whole = 1.0 / (k[EXPONENT] * k[AMBIENT] * s->view->dt * s->view->dt)};
-    double surplus;
+    double sums[MPS__GAS_SUMS];
     if (k[CONSERVE] > 0) {
-        mps__gas_rows rows = {f.region, s->data[CONDITION], f.source, k[PHASE]};
-        mps_stage_sum(s, 1, &add_surplus_rows, &f, &surplus);
-        mps__gas_conserve(s, &rows, surplus);
+        mps_stage_sum(s, MPS__GAS_SUMS, &add_rows, &f, sums);
+        mps__gas_conserve(s, &f.rows, sums);
     }
     mps_stage_rows(s, &compress_rows, &f);
     return 0;

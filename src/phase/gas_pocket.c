@@ -79,11 +79,12 @@ static int limit_step(mps_stage *s)
 
 /* ---- pockets ---- */
 
-enum { FIND_VELOCITY, FIND_DENSITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_NUMBER, FIND_USES };
-static const mps_use find_uses[FIND_USES] = {
-    [FIND_VELOCITY] = {"velocity", MPS_USE_READ},   [FIND_DENSITY] = {"density", MPS_USE_READ},
-    [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS}, [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
-    [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE}, [FIND_NUMBER] = {"pocket", MPS_USE_CHANGE}};
+enum { FIND_VELOCITY, FIND_REGION, FIND_ROW, FIND_SLOPE, FIND_NUMBER, FIND_USES };
+static const mps_use find_uses[FIND_USES] = {[FIND_VELOCITY] = {"velocity", MPS_USE_READ},
+                                             [FIND_REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                             [FIND_ROW] = {"pocket_pressure", MPS_USE_WRITE},
+                                             [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE},
+                                             [FIND_NUMBER] = {"pocket", MPS_USE_CHANGE}};
 
 /* Gas of the ambient of a closed tank: amount, volume. */
 static void sum_ullage(const double *setting, const mps__pocket *pocket, int32_t count, double *gas,
@@ -105,12 +106,12 @@ static double ambient_pressure(const double *setting, const mps__pocket *pocket,
 
 /* Pressures and frequencies of the pockets. pressure: [count] out, by component */
 static void find_pressures(mps_stage *s, const mps__pocket_faces *f, const mps__pocket_now *now,
-                           mps__pocket_head *head, const double *density, double *pressure)
+                           mps__pocket_head *head, double *pressure)
 {
     const double *k = s->view->setting, dp = s->view->dp;
     const mps_voids *v = &f->voids;
     double rho[2], *area = pressure + v->count;
-    mps__density_range(s, density, rho);
+    mps__density_range(s, rho);
     mps__pocket_areas(f, area);
     for (int32_t c = 0; c < v->count; c++) {
         mps__pocket *q = &now->pocket[c];
@@ -183,7 +184,7 @@ static int find_pockets(mps_stage *s)
     }
     if (follow(s, &f, &now, geometry, &head)) return 1;
     if (f.voids.count > 1) {
-        find_pressures(s, &f, &now, &head, s->data[FIND_DENSITY], pressure);
+        find_pressures(s, &f, &now, &head, pressure);
         for (int32_t c = 0; c < f.voids.count; c++) any = any || now.pocket[c].gas > 0;
         f.pressure = pressure;
         f.pocket = now.pocket;

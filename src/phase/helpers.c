@@ -1,43 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Helpers that several models of the fluid share. */
 #include "helpers.h"
+#include <math.h>
 
-typedef struct fields {
-    const double *density;
-} fields;
-
-/* Raises most[phase] to the negative of the density. */
-MPS_ROW void raise_lightest(const int dim, const mps_view *v, const fields *f, int64_t i,
-                            double *most)
+void mps__density_range(const mps_stage *s, double range[2])
 {
-    (void)dim;
-    if (!mps_is_fluid(v, i)) return;
-    double *own = &most[v->phase[i]];
-    if (-f->density[i] > *own) *own = -f->density[i];
-}
-MPS_SUMS(raise_lightest_rows, raise_lightest, fields)
-
-void mps__phase_densities(const mps_stage *s, const double *density, double rho[MPS__PHASE_LIMIT])
-{
-    fields f = {density};
-    mps_stage_max(s, MPS__PHASE_LIMIT, &raise_lightest_rows, &f, rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++) rho[p] = isinf(rho[p]) ? 0 : -rho[p];
-}
-
-/* Maxima over the fluid: of the negative of the density, of the density. */
-MPS_ROW void raise_density(const int dim, const mps_view *v, const fields *f, int64_t i,
-                           double *most)
-{
-    (void)dim;
-    if (!mps_is_fluid(v, i)) return;
-    most[0] = mps_larger(most[0], -f->density[i]);
-    most[1] = mps_larger(most[1], f->density[i]);
-}
-MPS_SUMS(raise_density_rows, raise_density, fields)
-
-void mps__density_range(const mps_stage *s, const double *density, double range[2])
-{
-    fields f = {density};
-    mps_stage_max(s, 2, &raise_density_rows, &f, range);
-    range[0] = -range[0];
+    double least[MPS_PHASES], greatest[MPS_PHASES];
+    mps_stage_densities(s, least, greatest);
+    range[0] = INFINITY;
+    range[1] = 0;
+    for (int p = 0; p < MPS_PHASES; p++) {
+        if (least[p] > 0) range[0] = mps_smaller(range[0], least[p]);
+        range[1] = mps_larger(range[1], greatest[p]);
+    }
 }

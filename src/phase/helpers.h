@@ -6,15 +6,8 @@
 #include <mps/model.h>
 #include <stdbool.h>
 
-/* Length of mps_view.viscosity, and of a side of mps_view.tension. */
-enum { MPS__PHASE_LIMIT = 16 };
-
-/* Smallest density of the fluid particles of each phase [kg/m3]; 0 for a phase without particles.
- * density: [n] the channel "density". */
-void mps__phase_densities(const mps_stage *s, const double *density, double rho[MPS__PHASE_LIMIT]);
-
-/* Smallest and largest density of the fluid particles [kg/m3]; INFINITY, -INFINITY without any. */
-void mps__density_range(const mps_stage *s, const double *density, double range[2]);
+/* Smallest and largest density of the fluid particles [kg/m3]; INFINITY, 0 without any. */
+void mps__density_range(const mps_stage *s, double range[2]);
 
 /* True for a fluid particle of the phase that a setting names. */
 static inline bool mps__is_gas(const mps_view *v, int64_t i, double phase)
@@ -44,9 +37,36 @@ typedef struct mps__gas_rows {
     double phase;             /* phase of the gas */
 } mps__gas_rows;
 
+/* Sums over the rows: of the sources in the equation, of their rows, of rows of the gas, of fixed
+ * rows; over the gas of (volume by the equation of state - 1), in cells of the lattice. */
+enum {
+    MPS__GAS_SOURCES,
+    MPS__GAS_ROWS,
+    MPS__GAS_OWN,
+    MPS__GAS_FIXED,
+    MPS__GAS_SURPLUS,
+    MPS__GAS_SUMS
+};
+
+/* Whether the pressure equation has row i. */
+static inline bool mps__gas_in_equation(const mps_view *v, const int32_t *region, int64_t i)
+{
+    return !mps_is_dummy(v, i) && mps_region_of(region, i) < MPS_REGION_SURFACE;
+}
+
+/* All sums of row i but the last. */
+MPS_ROW void mps__gas_add(const mps_view *v, const mps__gas_rows *f, int64_t i, double *sums)
+{
+    if (f->condition[i] == MPS_ROW_FIXED) sums[MPS__GAS_FIXED]++;
+    if (!mps__gas_in_equation(v, f->region, i)) return;
+    sums[MPS__GAS_SOURCES] += f->source[i];
+    sums[MPS__GAS_ROWS]++;
+    if (mps__is_gas(v, i, f->phase)) sums[MPS__GAS_OWN]++;
+}
+
 /* Keeps the volume of the gas if no row of the pressure equation is fixed: subtracts the sum of all
- * sources, and a part of `surplus`, the sum over the gas of (volume by the equation of state - 1)
- * in cells of the lattice. Call it before the gas adds its own terms. */
-void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, double surplus);
+ * sources, and a part of the surplus. Call it before the gas adds its own terms.
+ * sums: [MPS__GAS_SUMS] */
+void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, const double *sums);
 
 #endif

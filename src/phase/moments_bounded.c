@@ -95,7 +95,7 @@ static int invert_moments(mps_stage *s)
                 .correction = s->data[CORRECTION]};
     if (s->view->setting[TORN] > 0) {
         double rho[2];
-        mps__density_range(s, f.density, rho);
+        mps__density_range(s, rho);
         f.light = rho[1] > rho[0] ? rho[0] : 0;
     }
     mps_stage_rows(s, &invert_rows, &f);

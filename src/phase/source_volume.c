@@ -329,7 +329,7 @@ static void set_pace(const mps_stage *s, fields *f)
 {
     const mps_view *view = s->view;
     double rho[2], fastest[2];
-    mps__density_range(s, f->density, rho);
+    mps__density_range(s, rho);
     const bool several = rho[1] > rho[0];
     f->pace = (pacing){rho[0], rho[1] - rho[0], 1.0, view->velocity_scale};
     if (!several && view->setting[RAPID] == 0) return;

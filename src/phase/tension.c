@@ -119,22 +119,19 @@ MPS_ROW void find_curvature(const int dim, const mps_view *v, const fields *f, i
 }
 MPS_ROWS(find_curvature_rows, find_curvature, fields)
 
-/* Maxima over the fluid: of the phase, of its negative. */
-MPS_ROW void raise_phase(const int dim, const mps_view *v, const fields *f, int64_t i, double *most)
+static bool several_phases(const mps_stage *s)
 {
-    (void)dim, (void)f;
-    if (!mps_is_fluid(v, i)) return;
-    most[0] = mps_larger(most[0], v->phase[i]);
-    most[1] = mps_larger(most[1], -v->phase[i]);
+    double rho[MPS_PHASES];
+    int phases = 0;
+    mps_stage_densities(s, rho, NULL);
+    for (int p = 0; p < MPS_PHASES; p++) phases += rho[p] > 0;
+    return phases > 1;
 }
-MPS_SUMS(raise_phase_rows, raise_phase, fields)
 
 int mps__curvatures(mps_stage *s, int32_t which, double radius, double threshold, double *kappa)
 {
     fields f = {{.struct_size = sizeof f.grid}, threshold, which, kappa};
-    double phase[2];
-    mps_stage_max(s, 2, &raise_phase_rows, &f, phase);
-    if (!(phase[0] > -phase[1])) return 0; /* one phase or none */
+    if (!several_phases(s)) return 0;
     if (mps_stage_grid(s, radius * s->view->dp, &f.grid)) return 1;
     mps_stage_rows(s, &find_curvature_rows, &f);
     return 0;
@@ -142,16 +139,16 @@ int mps__curvatures(mps_stage *s, int32_t which, double radius, double threshold
 
 double mps__pair_sigma(const mps_view *v, int32_t a, int32_t b, double other)
 {
-    const double own = v->tension[a * MPS__PHASE_LIMIT + b];
+    const double own = v->tension[a * MPS_PHASES + b];
     return own >= 0 ? own : other;
 }
 
-void mps__tension_limit(mps_stage *s, const double *density, double other)
+void mps__tension_limit(mps_stage *s, double other)
 {
     const double pi = 3.14159265358979323846;
-    double rho[MPS__PHASE_LIMIT];
-    mps__phase_densities(s, density, rho);
-    for (int a = 0; a < MPS__PHASE_LIMIT; a++)
+    double rho[MPS_PHASES];
+    mps_stage_densities(s, rho, NULL);
+    for (int a = 0; a < MPS_PHASES; a++)
         for (int b = 0; b < a; b++) {
             const double sigma = mps__pair_sigma(s->view, a, b, other);
             if (rho[a] == 0 || rho[b] == 0 || sigma == 0) continue;

@@ -14,7 +14,7 @@ int mps__curvatures(mps_stage *s, int32_t which, double radius, double threshold
 double mps__pair_sigma(const mps_view *v, int32_t a, int32_t b, double other);
 
 /* Lowers s->dt_limit to half the time in which the shortest capillary wave travels a spacing, for
- * the fastest pair of phases. density: [n] the channel. */
-void mps__tension_limit(mps_stage *s, const double *density, double other);
+ * the fastest pair of phases. */
+void mps__tension_limit(mps_stage *s, double other);
 
 #endif

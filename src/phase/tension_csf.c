@@ -20,9 +20,6 @@ enum { DENSITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {
     [DENSITY] = {"density", MPS_USE_NEIGHBOURS}, [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
-enum { LIMIT_DENSITY, LIMIT_USES };
-static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS_USE_READ}};
-
 typedef struct fields {
     const double *density;
     double *acceleration;
@@ -74,18 +71,17 @@ static double reach(const double *setting, double dp)
 
 static int limit_step(mps_stage *s)
 {
-    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->view->setting[SIGMA]);
+    mps__tension_limit(s, s->view->setting[SIGMA]);
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.hook = MPS_FORCE,
-     .use_count = USES,
-     .uses = uses,
-     .after = "viscosity",
-     .before = "friction",
-     .run = pull_interfaces}};
+static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step},
+                                 {.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "viscosity",
+                                  .before = "friction",
+                                  .run = pull_interfaces}};
 
 const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,

@@ -32,9 +32,6 @@ static const mps_channel channels[] = {
 enum { JUMP, USES };
 static const mps_use uses[USES] = {[JUMP] = {"pressure_jump", MPS_USE_CHANGE}};
 
-enum { LIMIT_DENSITY, LIMIT_USES };
-static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS_USE_READ}};
-
 typedef struct fields {
     double *jump;
     double *kappa; /* [n] curvatures */
@@ -77,12 +74,12 @@ static double reach(const double *setting, double dp)
 
 static int limit_step(mps_stage *s)
 {
-    mps__tension_limit(s, s->data[LIMIT_DENSITY], s->view->setting[SIGMA]);
+    mps__tension_limit(s, s->view->setting[SIGMA]);
     return 0;
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
+    {.hook = MPS_LIMIT, .run = limit_step},
     {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps}};
 
 const mps_model_ops mps__tension_jump = {

@@ -40,18 +40,15 @@ static const mps_use uses[USES] = {
     [VISCOSITY] = {"viscosity", MPS_USE_NEIGHBOURS | MPS_USE_OPTIONAL},
     [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
-enum { LIMIT_DENSITY, LIMIT_USES };
-static const mps_use limit_uses[LIMIT_USES] = {[LIMIT_DENSITY] = {"density", MPS_USE_READ}};
-
 typedef struct fields {
     const double *velocity, *density, *viscosity;
     double *acceleration;
-    double *friction;                                 /* [n*dim] the share of solids */
-    const int32_t *slippery;                          /* NULL: no wall is */
-    double theta;                                     /* of mean_viscosity() */
-    bool whole;                                       /* pairs act along their line */
-    bool mirror;                                      /* dummies are seen mirrored */
-    double mean[MPS__PHASE_LIMIT * MPS__PHASE_LIMIT]; /* mu of pairs of phases */
+    double *friction;                     /* [n*dim] the share of solids */
+    const int32_t *slippery;              /* NULL: no wall is */
+    double theta;                         /* of mean_viscosity() */
+    bool whole;                           /* pairs act along their line */
+    bool mirror;                          /* dummies are seen mirrored */
+    double mean[MPS_PHASES * MPS_PHASES]; /* mu of pairs of phases */
 } fields;
 
 /* W22 (15), the last of its expressions. */
@@ -97,7 +94,7 @@ MPS_ROW void diffuse(const int dim, const mps_view *v, const fields *f, int64_t 
     if (!mps_is_fluid(v, i)) return;
     const mps_stencil *t = &v->far;
     const double *all = f->velocity, *u = all + i * dim;
-    const double *mu = f->mean + MPS__PHASE_LIMIT * v->phase[i];
+    const double *mu = f->mean + MPS_PHASES * v->phase[i];
     const double c = 2.0 * dim / (t->n0 * t->lambda * f->density[i]);
     double sum[3] = {0}, wall[3] = {0};
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
@@ -157,10 +154,10 @@ static int diffuse_velocity(mps_stage *s)
         if (mps_stage_refresh(s, 1, &(mps_shared){slippery, 1, MPS_TYPE_INTEGER})) return 1;
         f.slippery = slippery;
     }
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
-        for (int q = 0; q < MPS__PHASE_LIMIT; q++)
-            f.mean[MPS__PHASE_LIMIT * p + q] = mean_viscosity(k[THETA], s->view->viscosity[p],
-                                                              s->view->viscosity[q]);
+    for (int p = 0; p < MPS_PHASES; p++)
+        for (int q = 0; q < MPS_PHASES; q++)
+            f.mean[MPS_PHASES * p + q] = mean_viscosity(k[THETA], s->view->viscosity[p],
+                                                        s->view->viscosity[q]);
     mps_stage_rows(s, f.viscosity ? &diffuse_given_rows : &diffuse_phase_rows, &f);
     return mps_stage_reaction(s, NULL, f.friction);
 }
@@ -173,12 +170,12 @@ static int limit_step(mps_stage *s)
 {
     const mps_view *v = s->view;
     const double *k = v->setting;
-    double rho[MPS__PHASE_LIMIT], nu = 0, own = 0;
-    mps__phase_densities(s, s->data[LIMIT_DENSITY], rho);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
+    double rho[MPS_PHASES], nu = 0, own = 0;
+    mps_stage_densities(s, rho, NULL);
+    for (int p = 0; p < MPS_PHASES; p++)
         if (rho[p] > 0) own = mps_larger(own, v->viscosity[p] / rho[p]);
-    for (int p = 0; p < MPS__PHASE_LIMIT; p++)
-        for (int q = 0; q < MPS__PHASE_LIMIT; q++) {
+    for (int p = 0; p < MPS_PHASES; p++)
+        for (int q = 0; q < MPS_PHASES; q++) {
             if (p == q || !(rho[p] > 0 && rho[q] > 0)) continue;
             nu = mps_larger(nu,
                             mean_viscosity(k[THETA], v->viscosity[p], v->viscosity[q]) / rho[p]);
@@ -190,13 +187,12 @@ static int limit_step(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_LIMIT, .use_count = LIMIT_USES, .uses = limit_uses, .run = limit_step},
-    {.hook = MPS_FORCE,
-     .use_count = USES,
-     .uses = uses,
-     .before = "friction",
-     .run = diffuse_velocity}};
+static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step},
+                                 {.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .before = "friction",
+                                  .run = diffuse_velocity}};
 
 const mps_model_ops mps__viscosity_pair = {.struct_size = sizeof(mps_model_ops),
                                            .api = MPS_MODEL_API,

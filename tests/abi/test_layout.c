@@ -375,12 +375,12 @@ AT(mps_tank_pose, centre, 0); AT(mps_tank_pose, shift, 24); AT(mps_tank_pose, ro
 AT(mps_tank_pose, next_rotation, 144); AT(mps_tank_pose, rate, 216); AT(mps_tank_pose, omega, 240); AT(mps_tank_pose, has_next, 264);
 AT(mps_tank_pose, reserved, 268);
 
-SIZE(mps_view, 776);
+SIZE(mps_view, 784);
 AT(mps_view, struct_size, 0); AT(mps_view, dim, 4); AT(mps_view, n, 8); AT(mps_view, t, 16); AT(mps_view, dt, 24); AT(mps_view, dp, 32);
 AT(mps_view, velocity_scale, 40); AT(mps_view, g, 48); AT(mps_view, phases, 72); AT(mps_view, reserved, 76); AT(mps_view, kind, 80);
 AT(mps_view, phase, 88); AT(mps_view, id, 96); AT(mps_view, x, 104); AT(mps_view, area, 112); AT(mps_view, wall_of, 120);
 AT(mps_view, viscosity, 128); AT(mps_view, tension, 136); AT(mps_view, setting, 144); AT(mps_view, near, 152); AT(mps_view, far, 280);
-AT(mps_view, flux, 408); AT(mps_view, tank, 504);
+AT(mps_view, flux, 408); AT(mps_view, tank, 504); AT(mps_view, fastest, 776);
 
 SIZE(mps_stage, 72);
 AT(mps_stage, struct_size, 0); AT(mps_stage, hook, 4); AT(mps_stage, view, 8); AT(mps_stage, data, 16); AT(mps_stage, self, 24);

@@ -127,6 +127,7 @@ FUNCTIONS = {
     "mps_stage_rows": ("mps", None, [POINTER(mps_stage), POINTER(mps_rows), c_void_p]),
     "mps_stage_sum": ("mps", None, [POINTER(mps_stage), c_int32, POINTER(mps_sums), c_void_p, POINTER(c_double)]),
     "mps_stage_max": ("mps", None, [POINTER(mps_stage), c_int32, POINTER(mps_sums), c_void_p, POINTER(c_double)]),
+    "mps_stage_densities": ("mps", None, [POINTER(mps_stage), POINTER(c_double), POINTER(c_double)]),
     "mps_stage_beside": ("mps", c_int, [POINTER(mps_stage), POINTER(c_int32), POINTER(c_int32)]),
     "mps_stage_bodies": ("mps", c_int, [POINTER(mps_stage), c_int32, POINTER(c_int32), POINTER(c_int32)]),
     "mps_grid_init": ("mps", c_int32, [POINTER(mps_grid), c_size_t]),

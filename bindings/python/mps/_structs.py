@@ -147,6 +147,7 @@ mps_view._fields_ = [
     ("phase", POINTER(c_int32)), ("id", POINTER(c_int64)), ("x", POINTER(c_double)), ("area", POINTER(c_double)),
     ("wall_of", POINTER(c_int32)), ("viscosity", POINTER(c_double)), ("tension", POINTER(c_double)),
     ("setting", POINTER(c_double)), ("near", mps_stencil), ("far", mps_stencil), ("flux", mps_flux), ("tank", mps_tank_pose),
+    ("fastest", c_double),
 ]
 mps_stage._fields_ = [
     ("struct_size", c_uint32), ("hook", c_int32), ("view", POINTER(mps_view)), ("data", POINTER(c_void_p)), ("self", c_void_p),

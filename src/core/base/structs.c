@@ -63,12 +63,12 @@ static const known_struct structs[] = {
     V1(mps_tank),
     V1(mps_time_control),
     V1(mps_verb_info),
-    V1(mps_view),
     V1(mps_voids),
     V1(mps_voids_config),
     V2(mps_energy, friction),
     V2(mps_momentum, friction),
     V2(mps_step_info, pockets),
+    V2(mps_view, fastest),
 };
 #undef V1
 #undef V2

@@ -371,6 +371,7 @@ void mps__host_begin(mps__host *h)
     h->step = NULL; /* that of the step before is gone */
     h->laters.count = 0;
     h->laters.used = 0;
+    h->densities.agreed = false;
     h->before_call = NULL;
     h->in_calls = 0;
     h->clock = mps__clock();

@@ -3,6 +3,7 @@
 #ifndef MPS_CORE_HOST_H
 #define MPS_CORE_HOST_H
 
+#include "densities.h"
 #include "engine.h"
 #include "later.h"
 #include "motion.h"
@@ -47,6 +48,7 @@ typedef struct mps__host {
     mps__sets sets;    /* bodies */
     mps__plan plan;
     mps__twins twins;
+    mps__densities densities; /* of the phases */
     mps__laters laters;       /* of the step in progress */
     const mps_view *view;     /* of the step in progress, with arrays of the host */
     mps__reactions reactions; /* of the step in progress */

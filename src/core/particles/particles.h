@@ -5,7 +5,7 @@
 
 #include "parallel.h"
 
-enum { MPS__FIELDS_MAX = 32, MPS__PHASES = 16, MPS__PARTS_MAX = 64, MPS__PART_NAME = 32 };
+enum { MPS__FIELDS_MAX = 32, MPS__PHASES = MPS_PHASES, MPS__PARTS_MAX = 64, MPS__PART_NAME = 32 };
 
 /* One array that travels with the particles. */
 typedef struct mps__field {

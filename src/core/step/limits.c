@@ -40,6 +40,7 @@ static mps_status limit_by_state(mps__world *w, mps_stage *s, mps_view *v, limit
     const mps_time_control *c = &w->setup.control;
     const double dp = w->setup.dp, speed = mps__world_speed(w), scale = w->setup.velocity_scale;
     double nu = 0;
+    v->fastest = speed;
     for (int k = 0; k < MPS__PHASES; k++)
         if (w->setup.phase_defined[k])
             nu = fmax(nu, w->setup.phase_viscosity[k] / w->setup.phase_density[k]);

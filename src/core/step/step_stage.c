@@ -96,6 +96,7 @@ void mps__step_open(mps__step *q)
     set_flux(q);
     set_terms(q);
     w->voids.ready = false;
+    w->host.densities.agreed = false; /* particles came or went since MPS_POPULATE */
     q->line = MPS__LINE_OF_HOOK;
     w->host.step = q;
     w->host.before_call = before_call;

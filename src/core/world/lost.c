@@ -113,47 +113,6 @@ MPS_ROW void note_outside(const int dim, const mps_view *v, const box *f, int64_
 }
 MPS_SUMS(any_outside, note_outside, box)
 
-/* Of the next step: fluid outside, ways since the search, speeds. */
-typedef struct aheads {
-    box box;
-    const double *searched, *u;
-} aheads;
-
-MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
-{
-    double way = 0, speed = 0;
-    for (int d = 0; d < dim; d++) {
-        const double m = v->x[i * dim + d] - f->searched[i * dim + d], u = f->u[i * dim + d];
-        way += m * m;
-        speed += u * u;
-    }
-    if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
-    if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
-    if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
-}
-MPS_SUMS(raise_aheads, raise_ahead, aheads)
-
-static void take_ahead(void *to, const double *most)
-{
-    memcpy(to, most, MPS__AHEADS * sizeof *most);
-}
-
-void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
-{
-    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                .u = mps__seen(w, w->particles.u)};
-    mps_view v;
-    for (int d = 0; d < 3; d++) {
-        f.box.lo[d] = -INFINITY;
-        f.box.hi[d] = INFINITY;
-    }
-    mps__world_domain(w, f.box.lo, f.box.hi);
-    mps__world_view(w, &v);
-    mps__motion_view(&w->motion, pose, &v.tank);
-    mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
-                        (mps__then){take_ahead, most});
-}
-
 /* Whether any liquid is outside, where the device of a step has the particles. */
 static mps_status look_out_there(mps__world *w, const mps_view *v, const box *b, bool *any)
 {
@@ -185,11 +144,17 @@ mps_status mps__world_leave_domain(mps__world *w)
 /* What a row looks at to know whether it is behind a wall: pairs of the search, and solids in the frame of the tank. */
 typedef struct rims {
     const int64_t *begin, *middle; /* near candidates of a row */
+    const int32_t *count;          /* NULL; or all candidates are looked at, so many */
     const int32_t *col, *plate;
     const uint8_t *rim; /* not 0: the row may have dummies beside it */
     const double *ref, *area;
     bool *gone;
 } rims;
+
+MPS_ROW int64_t end_of(const rims *f, int64_t i)
+{
+    return f->count ? f->begin[i] + f->count[i] : f->middle[i];
+}
 
 MPS_ROW double distance2(const int dim, const mps_view *v, int64_t i, int64_t j)
 {
@@ -212,7 +177,7 @@ MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, 
     mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
     for (int d = 0; d < dim; d++)
         height += (X[d] - f->ref[wall * dim + d]) * f->area[wall * dim + d];
-    for (int64_t p = f->begin[i]; height < 0 && p < f->middle[i]; p++)
+    for (int64_t p = f->begin[i]; height < 0 && p < end_of(f, i); p++)
         if (mps_is_wall(v, f->col[p]) && distance2(dim, v, i, f->col[p]) <= r2) return false;
     return height < 0;
 }
@@ -220,7 +185,7 @@ MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, 
 /* Whether particle i touches a wall from behind. */
 MPS_ROW bool spilled(const int dim, const mps_view *v, const rims *f, int64_t i)
 {
-    for (int64_t p = f->begin[i]; p < f->middle[i]; p++) {
+    for (int64_t p = f->begin[i]; p < end_of(f, i); p++) {
         const int64_t j = f->col[p];
         if (!mps_is_dummy(v, j) || f->plate[j] != 0) continue;
         const double r2 = distance2(dim, v, i, j);
@@ -268,12 +233,20 @@ static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
     return mps__twins_leave(&w->host.twins);
 }
 
+/* Whether the last step has told that there is none; its rows are still those of today. */
+static bool is_told(const mps__world *w)
+{
+    return w->ahead.holds && w->ahead.searches == w->lists.neighbours.searches &&
+           w->ahead.most[MPS__AHEAD_SPILLED] == 0;
+}
+
 /* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
 mps_status mps__world_leave_tank(mps__world *w)
 {
     bool any = true;
     mps_view v;
     mps__world_view(w, &v);
+    if (is_told(w)) return MPS_OK;
     if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
@@ -283,4 +256,53 @@ mps_status mps__world_leave_tank(mps__world *w)
     clear_gone(w);
     mps__host_rows(&w->host, &v, &spilled_rows, &f);
     return handle_lost(w, w->work.gone, "are behind a wall");
+}
+
+/* ---- what a step tells the next one ---- */
+
+typedef struct aheads {
+    box box;
+    rims rims; /* `rim` NULL: rows are not here, or plates hide some of their candidates */
+    const double *searched, *u;
+} aheads;
+
+MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
+{
+    double way = 0, speed = 0;
+    for (int d = 0; d < dim; d++) {
+        const double m = v->x[i * dim + d] - f->searched[i * dim + d], u = f->u[i * dim + d];
+        way += m * m;
+        speed += u * u;
+    }
+    if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
+    if (f->rims.rim && most[MPS__AHEAD_SPILLED] < 1)
+        most[MPS__AHEAD_SPILLED] = f->rims.rim[i] && spilled(dim, v, &f->rims, i);
+    if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
+    if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
+}
+MPS_SUMS(raise_aheads, raise_ahead, aheads)
+
+static void take_ahead(void *to, const double *most)
+{
+    memcpy(to, most, MPS__AHEADS * sizeof *most);
+}
+
+void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
+{
+    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
+                .u = mps__seen(w, w->particles.u)};
+    mps_view v;
+    if (mps__world_rows_there(w) && w->lists.screens.count == 0) {
+        f.rims = rims_of(w);
+        f.rims.count = mps__seen(w, w->lists.neighbours.count);
+    }
+    for (int d = 0; d < 3; d++) {
+        f.box.lo[d] = -INFINITY;
+        f.box.hi[d] = INFINITY;
+    }
+    mps__world_domain(w, f.box.lo, f.box.hi);
+    mps__world_view(w, &v);
+    mps__motion_view(&w->motion, pose, &v.tank);
+    mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
+                        (mps__then){take_ahead, most});
 }

@@ -39,6 +39,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .parallel = &w->pool.parallel,
                           .ghosts = &w->ghosts,
                           .phase_defined = w->setup.phase_defined,
+                          .densities = {.changes = -1},
                           .sets = {.context = context}};
     mps__twins_init(&w->host.twins, &w->channels, &w->particles, &w->pool.parallel);
     mps__plan_init(&w->host.plan, passes, pass_count);
@@ -114,7 +115,8 @@ void mps__world_view(const mps__world *w, mps_view *v)
                     .area = w->work.area,
                     .wall_of = s->wall_of,
                     .viscosity = w->setup.phase_viscosity,
-                    .tension = w->setup.tension};
+                    .tension = w->setup.tension,
+                    .fastest = INFINITY};
     for (int p = 0; p < MPS__PHASES; p++) v->phases += w->setup.phase_defined[p];
     mps__motion_view(&w->motion, &w->motion.now, &v->tank);
 }

@@ -129,9 +129,15 @@ typedef struct mps__lists {
     int64_t orders;    /* how often particles were put in order */
 } mps__lists;
 
-/* What a step on a device tells the next one, in its last copy: whether fluid is outside of the domain, the square of the longest way since the
- * search, the square of the largest speed. It holds for the same particles and the same search. */
-enum { MPS__AHEAD_OUTSIDE, MPS__AHEAD_WAY, MPS__AHEAD_SPEED, MPS__AHEADS };
+/* What a step on a device tells the next one, in its last copy: whether fluid is outside of the domain, whether any is behind a wall, the square of
+ * the longest way since the search, the square of the largest speed. It holds for the same particles and the same search. */
+enum {
+    MPS__AHEAD_OUTSIDE,
+    MPS__AHEAD_SPILLED, /* -INFINITY: not known */
+    MPS__AHEAD_WAY,
+    MPS__AHEAD_SPEED,
+    MPS__AHEADS
+};
 typedef struct mps__ahead {
     double most[MPS__AHEADS];
     int64_t changes,

@@ -191,6 +191,7 @@ mps_status mps__world_divide(mps__world *w)
     mps__twins_old(&w->host.twins, old);
     MPS__TRY(mps__particles_reorder(s, s->n, l->order, old));
     mps__twins_permuted(&w->host.twins, changes);
+    if (!mps__ranks_many(&w->ranks)) mps__densities_permuted(&w->host.densities, s, changes);
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
