@@ -46,8 +46,10 @@ static void invert_diagonal(auxgrid *a, const mps_ppe_problem *problem)
 }
 
 /* Cells of the first grid. */
-static int find_cells(mps__grid *g, const mps_ppe_problem *problem)
+static int find_cells(mps__grid *g, const mps_ppe_problem *problem, const mps__grid_common *common)
 {
+    mps__grid_measure(g, problem, common->square);
+    mps__grid_lay(g, problem, common->least);
     if (mps__grid_many(g)) return mps__grid_ranks_cells(g, problem);
     mps__grid_place(g, problem, problem->n);
     return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
@@ -55,9 +57,8 @@ static int find_cells(mps__grid *g, const mps_ppe_problem *problem)
 
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem, const mps__grid_common *common)
 {
-    mps__grid_measure(g, problem, common->square);
-    mps__grid_lay(g, problem, common->least);
-    int reason = find_cells(g, problem);
+    int reason = g->device ? mps__grid_ask(g, problem) : find_cells(g, problem, common);
+    if (!reason && g->device && !mps__grid_make_cells(g, &g->level[0])) reason = MPS_PPE_NOMEM;
     if (!reason) reason = mps__grid_from_matrix(g, problem);
     if (reason) return reason;
     g->levels = 1;
@@ -84,8 +85,8 @@ static int setup(void *self, const mps_ppe_problem *problem)
     mps__grid *g = a->grid = grid_for(a, problem);
     const int64_t columns = mps__columns(problem),
                   rows = problem->ranks ? problem->ranks->rows : problem->n;
-    mps__grid_common common;
-    int reason = mps__grid_look(problem, &common);
+    mps__grid_common common = {.square = 0};
+    int reason = g->device ? 0 : mps__grid_look(problem, &common);
     g->levels = 0;
     if (reason) return reason;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */

@@ -152,6 +152,20 @@ typedef struct mps__grid_sorted {
     const int32_t *order_now;
 } mps__grid_sorted;
 
+/* What a device tells of a set-up, in one copy; loops gather it there. */
+typedef struct mps__grid_told {
+    struct {
+        mps_exact sums[2];
+        double maxima[5];
+    } look;        /* at the rows */
+    double square; /* mean of r_ij^2 */
+    struct {
+        mps_exact sums[3];
+        double largest;
+    } measure;       /* of conductivities */
+    double cells[2]; /* of the grid that was sorted last: cells, red ones */
+} mps__grid_told;
+
 typedef struct mps__grid {
     mps_allocator allocator;
     const mps_parallel *parallel;
@@ -161,6 +175,7 @@ typedef struct mps__grid {
     double corner[3], size,
         per_size; /* corner [cells], edge and 1 / edge of the first grid's cells [m] */
     double unit;  /* matrix entries times this are of order one */
+    bool laid;    /* corner and size are there */
     int levels;
     mps__grid_level level[MPS__GRID_LEVELS];
     int64_t table_size, table_capacity; /* a power of two */
@@ -179,9 +194,10 @@ typedef struct mps__grid {
     size_t part_capacity; /* bytes */
     void *
         parts; /* what the particles of each cell add to the cells about it, or the faces of two densities */
-    double *factor; /* [direct * direct] L of the last grid's L D L' */
-    double *pivot;  /* [direct] 1/D, 0 where D is */
-    double *bad;    /* [levels] whether a diagonal is not finite, on a device */
+    double *factor;       /* [direct * direct] L of the last grid's L D L' */
+    double *pivot;        /* [direct] 1/D, 0 where D is */
+    double *bad;          /* [levels] whether a diagonal is not finite, on a device */
+    mps__grid_told *told; /* on a device */
     int64_t
         turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
     mps__grid_ranks ranks;
@@ -237,13 +253,22 @@ static inline bool mps__grid_is_red(int64_t key)
 int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points);
 /* Cells and neighbours of a level from point_key; links are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
+/* The second half of it: the cells have been found and counted. */
+bool mps__grid_make_cells(mps__grid *g, mps__grid_level *l);
 /* On a host: the points of each cell of a coarser grid. A device has them from the order of the points. */
 void mps__grid_list_cells(const mps__grid *g, mps__grid_level *l);
 
 /* ---- cells on a device (auxgrid_sort.c) ---- */
 
-/* Points in the order of their cells, which are counted. */
-void mps__grid_sort(mps__grid *g, mps__grid_level *l);
+/* Points in the order of their cells, which are counted into `told` of the device, */
+void mps__grid_sort(mps__grid *g, const mps__grid_level *l);
+/* and from there into the level. A maximum is -INFINITY where no row has one. */
+void mps__grid_count(const mps__grid *g, mps__grid_level *l);
+static inline void mps__grid_counted(mps__grid_level *l, const double cells[2])
+{
+    l->cells = cells[0] > 0 ? (int64_t)cells[0] : 0;
+    l->red = cells[1] > 0 ? (int64_t)cells[1] : 0;
+}
 /* Then homes, keys, lists of points, neighbours. */
 void mps__grid_number(mps__grid *g, mps__grid_level *l);
 
@@ -255,6 +280,8 @@ typedef struct mps__grid_common {
     double least[3]; /* [dim] the largest of -x */
 } mps__grid_common;
 
+/* On a device, all of this section up to the cells of the first grid, which are sorted and counted. Returns 0 or a reason of failure. */
+int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem);
 /* Look at all rows. Returns 0, or why they are refused, the same on all ranks: too many unknowns on one, or a diagonal entry. */
 int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common);
 /* Conductivity of each row, from which the cell size follows. */

@@ -191,10 +191,14 @@ bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points)
 {
     l->points = points;
     if (!mps__grid_reserve_points(g, l)) return false;
-    if (g->device)
-        mps__grid_sort(g, l);
-    else if (!find_cells(g, l))
-        return false;
+    if (!g->device) return find_cells(g, l) && mps__grid_make_cells(g, l);
+    mps__grid_sort(g, l);
+    mps__grid_count(g, l);
+    return mps__grid_make_cells(g, l);
+}
+
+bool mps__grid_make_cells(mps__grid *g, mps__grid_level *l)
+{
     if (!mps__grid_reserve_cells(g, l)) return false;
     if (g->device)
         mps__grid_number(g, l);

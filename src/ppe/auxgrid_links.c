@@ -75,15 +75,20 @@ static int add_up(const mps_ppe_problem *problem, mps_exact *sums, double *found
     return refused[BAD] > 0 ? MPS_PPE_NAN : refused[NEGATIVE] > 0 ? MPS_PPE_INDEFINITE : 0;
 }
 
+static looking looking_of(const mps_ppe_problem *problem)
+{
+    return (looking){.row = problem->row,
+                     .col = problem->col,
+                     .val = problem->val,
+                     .diagonal = problem->diagonal,
+                     .x = problem->x,
+                     .per_dp = 1 / problem->dp};
+}
+
 /* The mean of r_ij^2 is from a sample of the rows, which all have the same kernel, or from all if the sample has nothing. */
 int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common)
 {
-    looking f = {.row = problem->row,
-                 .col = problem->col,
-                 .val = problem->val,
-                 .diagonal = problem->diagonal,
-                 .x = problem->x,
-                 .per_dp = 1 / problem->dp};
+    looking f = looking_of(problem);
     *common = (mps__grid_common){.square = 0};
     for (int pass = 0; pass < 2 && !(common->square > 0); pass++) {
         mps_exact sums[SUMS] = {{{0}, 0, 0}};
@@ -104,7 +109,8 @@ int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common)
 typedef struct rows {
     const int64_t *row;
     const double *diagonal, *shift;
-    double square; /* mean of r_ij^2 */
+    double square;         /* mean of r_ij^2, */
+    const double *squared; /* or where a device has it */
     double *kappa;
 } rows;
 
@@ -112,7 +118,8 @@ typedef struct rows {
 MPS_ROW void measure_row(const int dim, const rows *f, int64_t i, double *values)
 {
     const int64_t entries = f->row[i + 1] - f->row[i];
-    const double left = f->diagonal[i] - f->shift[i], flux = (left > 0 ? left : 0) * f->square,
+    const double left = f->diagonal[i] - f->shift[i], square = f->squared ? *f->squared : f->square,
+                 flux = (left > 0 ? left : 0) * square,
                  kappa = entries > 0 ? flux / (double)entries : 0;
     (void)dim;
     f->kappa[i] = kappa;
@@ -124,21 +131,28 @@ MPS_ROW void measure_row(const int dim, const rows *f, int64_t i, double *values
 }
 MPS__VALUES_ANY(measure_rows, measure_row, rows, 3, 1)
 
-/* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
-void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square)
+static void take_measure(mps__grid *g, const mps_ppe_problem *problem, const mps_exact sums[3],
+                         double most)
 {
-    const rows f = {problem->row, problem->diagonal, problem->shift, square, g->point_kappa};
-    mps_exact sums[3] = {{{0}, 0, 0}};
-    double v[3], most = 0;
-    mps__values_run(mps__team(problem->parallel, problem->n), &measure_rows, MPS__ANY_DIM,
-                    problem->n, &f, sums, &most);
-    mps_ppe_total(problem, &(mps_exact_values){3, 1, sums, &most});
+    double v[3];
     for (int k = 0; k < 3; k++) v[k] = mps_exact_value(&sums[k]);
     g->one = !(v[0] * v[1] > one_density * v[2] * v[2]);
     g->dim = problem->dim;
     g->unit = most > 0 ? problem->dp * problem->dp / most : 1;
     g->size = problem->dp * (!g->one ? 2 : problem->dim == 2 ? 3 : 2.5);
     g->per_size = 1 / g->size;
+}
+
+/* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
+void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square)
+{
+    const rows f = {problem->row, problem->diagonal, problem->shift, square, NULL, g->point_kappa};
+    mps_exact sums[3] = {{{0}, 0, 0}};
+    double most = 0;
+    mps__values_run(mps__team(problem->parallel, problem->n), &measure_rows, MPS__ANY_DIM,
+                    problem->n, &f, sums, &most);
+    mps_ppe_total(problem, &(mps_exact_values){3, 1, sums, &most});
+    take_measure(g, problem, sums, most);
 }
 
 /* The corner is below the least particle and has few places: odd multiples of a quarter of the range of coordinates. So the cells
@@ -170,6 +184,87 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t point
 {
     mps__loop_run_cheap(problem->parallel, &place_rows, g->dim, points,
                         &(placing){mps__grid_positions_of(g, problem), g->point_key});
+}
+
+/* ---- the same on a device ---- */
+
+typedef struct averaging {
+    const mps_exact *sums;
+    double *square;
+} averaging;
+
+MPS_ROW void average_row(const int dim, const averaging *f, int64_t i)
+{
+    const double sum = mps_exact_value(&f->sums[CONDUCTANCES]);
+    (void)dim, (void)i;
+    *f->square = sum > 0 ? mps_exact_value(&f->sums[SQUARES]) / sum : 0;
+}
+MPS__LOOP_ANY(average_rows, average_row, averaging)
+
+/* Cells where the last set-up had laid the first grid, and all from which follows where it lies now. */
+static void queue_questions(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_told *to = g->told;
+    const looking f = looking_of(problem);
+    const rows r = {problem->row, problem->diagonal, problem->shift, 0,
+                    &to->square,  g->point_kappa};
+    mps__values_gather(g->device, &look_rows, problem->dim, problem->n, &f, &to->look);
+    mps__loop_run(problem->parallel, &average_rows, MPS__ANY_DIM, 1,
+                  &(averaging){to->look.sums, &to->square});
+    mps__values_gather(g->device, &measure_rows, MPS__ANY_DIM, problem->n, &r, &to->measure);
+    if (!g->laid) return;
+    mps__grid_place(g, problem, problem->n);
+    mps__grid_sort(g, &g->level[0]);
+}
+
+/* A sample without pairs says nothing: all rows are asked. */
+static int ask_all(mps__grid *g, const mps_ppe_problem *problem, mps__grid_common *common)
+{
+    const int reason = mps__grid_look(problem, common);
+    if (!reason) mps__grid_measure(g, problem, common->square);
+    return reason;
+}
+
+/* What was told of the rows. */
+static int take_look(mps__grid *g, const mps_ppe_problem *problem, const mps__grid_told *told,
+                     mps__grid_common *common)
+{
+    const double *most = told->look.maxima;
+    if (g->device->failed) return MPS_PPE_NOMEM;
+    if (most[BAD] > 0 || most[NEGATIVE] > 0)
+        return most[BAD] > 0 ? MPS_PPE_NAN : MPS_PPE_INDEFINITE;
+    if (!(told->square > 0)) return ask_all(g, problem, common);
+    common->square = told->square;
+    memcpy(common->least, most + LEAST, sizeof common->least);
+    take_measure(g, problem, told->measure.sums, told->measure.largest);
+    return 0;
+}
+
+int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_level *l = &g->level[0];
+    const double before[] = {g->corner[0], g->corner[1], g->corner[2], g->size};
+    const bool laid = g->laid;
+    mps__grid_told told = {.square = 0};
+    mps__grid_common common = {.square = 0};
+    if (problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
+    l->points = problem->n;
+    if (!mps__grid_reserve_points(g, l)) return MPS_PPE_NOMEM;
+    queue_questions(g, problem);
+    mps__device_download(g->device, &told, g->told, sizeof told);
+    const int reason = take_look(g, problem, &told, &common);
+    if (reason) return reason;
+    mps__grid_lay(g, problem, common.least);
+    g->laid = true;
+    const double now[] = {g->corner[0], g->corner[1], g->corner[2], g->size};
+    if (laid && memcmp(now, before, sizeof now) == 0) {
+        mps__grid_counted(l, told.cells);
+        return 0;
+    }
+    mps__grid_place(g, problem, problem->n);
+    mps__grid_sort(g, l);
+    mps__grid_count(g, l);
+    return 0;
 }
 
 /* ---- first grid ---- */

@@ -165,7 +165,8 @@ static bool reserve_few(mps__grid *g)
         g->factor = mps__take(a, MPS__GRID_DIRECT * MPS__GRID_DIRECT, sizeof *g->factor);
     if (!g->pivot) g->pivot = mps__take(a, MPS__GRID_DIRECT, sizeof *g->pivot);
     if (g->device && !g->bad) g->bad = mps__take(a, MPS__GRID_LEVELS, sizeof *g->bad);
-    return g->factor && g->pivot && (g->bad || !g->device);
+    if (g->device && !g->told) g->told = mps__take(a, 1, sizeof *g->told);
+    return g->factor && g->pivot && ((g->bad && g->told) || !g->device);
 }
 
 bool mps__grid_reserve(mps__grid *g, int64_t points)
@@ -209,5 +210,8 @@ void mps__grid_release(mps__grid *g)
     mps__give(&g->allocator, g->factor);
     mps__give(&g->allocator, g->pivot);
     mps__give(&g->allocator, g->bad);
+    mps__give(&g->allocator, g->told);
     g->factor = g->pivot = g->bad = NULL;
+    g->told = NULL;
+    g->laid = false;
 }

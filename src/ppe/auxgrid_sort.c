@@ -99,7 +99,7 @@ MPS_ROW void count_row(const int dim, const sorting *f, int64_t a, double *most)
 }
 MPS__VALUES_ANY(count_cells, count_row, sorting, 0, 2)
 
-void mps__grid_sort(mps__grid *g, mps__grid_level *l)
+void mps__grid_sort(mps__grid *g, const mps__grid_level *l)
 {
     const mps__grid_sorted *s = &g->sorted;
     const int64_t n = l->points;
@@ -109,7 +109,6 @@ void mps__grid_sort(mps__grid *g, mps__grid_level *l)
                  .new_key = s->key,
                  .new_order = s->order,
                  .number = s->number};
-    double most[2] = {0, 0};
     mps__loop_run(g->parallel, &rank_rows, MPS__ANY_DIM, n, &f);
     f.key = s->key;
     f.order = s->order;
@@ -125,11 +124,16 @@ void mps__grid_sort(mps__grid *g, mps__grid_level *l)
     }
     mps__loop_run_cheap(g->parallel, &begin_rows, MPS__ANY_DIM, n, &f);
     mps__scan(g->parallel, s->number, n);
-    mps__values_run(g->parallel, &count_cells, MPS__ANY_DIM, n, &f, NULL, most);
+    mps__values_gather(g->device, &count_cells, MPS__ANY_DIM, n, &f, g->told->cells);
     g->sorted.key_now = f.key;
     g->sorted.order_now = f.order;
-    l->cells = (int64_t)most[0];
-    l->red = (int64_t)most[1];
+}
+
+void mps__grid_count(const mps__grid *g, mps__grid_level *l)
+{
+    double cells[2] = {0, 0};
+    mps__device_download(g->device, cells, g->told->cells, sizeof cells);
+    mps__grid_counted(l, cells);
 }
 
 /* ---- homes, keys, neighbours ---- */

@@ -200,13 +200,6 @@ MPS_ROW void look_behind(const int dim, const mps_view *v, const rims *f, int64_
 }
 MPS_ROWS(spilled_rows, look_behind, rims)
 
-/* The maximum: whether any row is. */
-MPS_ROW void note_spilled(const int dim, const mps_view *v, const rims *f, int64_t i, double *any)
-{
-    if (*any < 1 && f->rim[i] && spilled(dim, v, f, i)) *any = 1;
-}
-MPS_SUMS(any_spilled, note_spilled, rims)
-
 /* Arrays where loops run. */
 static rims rims_of(const mps__world *w)
 {
@@ -220,42 +213,6 @@ static rims rims_of(const mps__world *w)
                   .ref = mps__seen(w, s->ref),
                   .area = mps__seen(w, s->area),
                   .gone = w->work.gone};
-}
-
-/* Whether any liquid is behind a wall, where the device of a step has rows: most steps need them nowhere else. */
-static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
-{
-    double most = 0;
-    MPS__TRY(mps__twins_enter(&w->host.twins));
-    const rims f = rims_of(w);
-    mps__host_max(&w->host, v, 1, &any_spilled, &f, &most);
-    *any = most > 0;
-    return mps__twins_leave(&w->host.twins);
-}
-
-/* Whether the last step has told that there is none; its rows are still those of today. */
-static bool is_told(const mps__world *w)
-{
-    return w->ahead.holds && w->ahead.searches == w->lists.neighbours.searches &&
-           w->ahead.most[MPS__AHEAD_SPILLED] == 0;
-}
-
-/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
-mps_status mps__world_leave_tank(mps__world *w)
-{
-    bool any = true;
-    mps_view v;
-    mps__world_view(w, &v);
-    if (is_told(w)) return MPS_OK;
-    if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
-    if (!any) return MPS_OK;
-    MPS__TRY(mps__world_fetch(w));
-    mps__twins_rows_ready(&w->host.twins);
-    MPS__TRY(mps__device_status(&w->host.twins.device));
-    const rims f = rims_of(w);
-    clear_gone(w);
-    mps__host_rows(&w->host, &v, &spilled_rows, &f);
-    return handle_lost(w, w->work.gone, "are behind a wall");
 }
 
 /* ---- what a step tells the next one ---- */
@@ -305,4 +262,44 @@ void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS
     mps__motion_view(&w->motion, pose, &v.tank);
     mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
                         (mps__then){take_ahead, most});
+}
+
+/* ---- behind walls ---- */
+
+/* Whether any liquid is behind a wall, where the device of a step has rows: most steps need them nowhere else. */
+static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
+{
+    double most[MPS__AHEADS] = {0};
+    MPS__TRY(mps__twins_enter(&w->host.twins));
+    const aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
+                      .u = mps__seen(w, w->particles.u),
+                      .rims = rims_of(w)};
+    mps__host_max(&w->host, v, MPS__AHEADS, &raise_aheads, &f, most);
+    *any = most[MPS__AHEAD_SPILLED] > 0;
+    return mps__twins_leave(&w->host.twins);
+}
+
+/* Whether the last step has told that there is none; its rows are still those of today. */
+static bool is_told(const mps__world *w)
+{
+    return w->ahead.holds && w->ahead.searches == w->lists.neighbours.searches &&
+           w->ahead.most[MPS__AHEAD_SPILLED] == 0;
+}
+
+/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
+mps_status mps__world_leave_tank(mps__world *w)
+{
+    bool any = true;
+    mps_view v;
+    mps__world_view(w, &v);
+    if (is_told(w)) return MPS_OK;
+    if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
+    if (!any) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
+    mps__twins_rows_ready(&w->host.twins);
+    MPS__TRY(mps__device_status(&w->host.twins.device));
+    const rims f = rims_of(w);
+    clear_gone(w);
+    mps__host_rows(&w->host, &v, &spilled_rows, &f);
+    return handle_lost(w, w->work.gone, "are behind a wall");
 }
