@@ -3,18 +3,18 @@
  * begins where a key differs from the one before. The same cells in the same order as on the host. */
 #include "auxgrid.h"
 #include "scan.h"
+#include "sort.h"
 
-/* Points that are put in order together at first; then that many runs become one. */
-enum { FIRST_RUN = 64, WAYS = 4 };
+/* Points that are put in order together at first. */
+enum { FIRST_RUN = 64 };
 
 static const uint64_t no_cell = UINT64_MAX, black = (uint64_t)1 << 63;
 
 /* What a loop works on; each uses its own. */
 typedef struct sorting {
-    int64_t n, run; /* points; of a run that is in order */
+    int64_t n; /* points */
     const int64_t *point_key;
     const uint64_t *key;
-    const int32_t *order;
     uint64_t *new_key;
     int32_t *new_order;
     int64_t *number;
@@ -45,36 +45,6 @@ MPS_ROW void rank_row(const int dim, const sorting *f, int64_t i)
 }
 MPS__LOOP_ANY(rank_rows, rank_row, sorting)
 
-/* Places of a run that come before place a. Runs of lower points come first where keys are equal. */
-MPS_ROW int64_t count_before(const sorting *f, int64_t a, int64_t run)
-{
-    const int64_t begin = run * f->run < f->n ? run * f->run : f->n,
-                  end = begin + f->run < f->n ? begin + f->run : f->n;
-    const uint64_t key = f->key[a];
-    int64_t lo = begin, hi = end;
-    while (lo < hi) {
-        const int64_t b = lo + (hi - lo) / 2;
-        if (f->key[b] < key || (f->key[b] == key && begin < a))
-            lo = b + 1;
-        else
-            hi = b;
-    }
-    return lo - begin;
-}
-
-/* Runs that are in order become one of several: a place knows its new one from its own in its run, and from those of each other run before it. */
-MPS_ROW void merge_row(const int dim, const sorting *f, int64_t a)
-{
-    const int64_t own = a / f->run, first = own - own % WAYS;
-    int64_t to = first * f->run + a % f->run;
-    (void)dim;
-    for (int64_t run = first; run < first + WAYS; run++)
-        if (run != own) to += count_before(f, a, run);
-    f->new_key[to] = f->key[a];
-    f->new_order[to] = f->order[a];
-}
-MPS__LOOP_ANY(merge_rows, merge_row, sorting)
-
 /* ---- cells ---- */
 
 MPS_ROW bool begins(const sorting *f, int64_t a)
@@ -104,29 +74,24 @@ void mps__grid_sort(mps__grid *g, const mps__grid_level *l)
     const mps__grid_sorted *s = &g->sorted;
     const int64_t n = l->points;
     sorting f = {.n = n,
-                 .run = FIRST_RUN,
                  .point_key = g->point_key,
                  .new_key = s->key,
                  .new_order = s->order,
                  .number = s->number};
+    mps__sorting m = {.n = n,
+                      .run = FIRST_RUN,
+                      .key = s->key,
+                      .order = s->order,
+                      .new_key = s->key + n,
+                      .new_order = s->order + n};
     mps__loop_run(g->parallel, &rank_rows, MPS__ANY_DIM, n, &f);
-    f.key = s->key;
-    f.order = s->order;
-    f.new_key = s->key + n;
-    f.new_order = s->order + n;
-    for (; f.run < n; f.run *= WAYS) {
-        mps__loop_run(g->parallel, &merge_rows, MPS__ANY_DIM, n, &f);
-        const sorting from = f;
-        f.key = from.new_key;
-        f.order = from.new_order;
-        f.new_key = (uint64_t *)from.key;
-        f.new_order = (int32_t *)from.order;
-    }
+    mps__merge_sort(g->parallel, &m);
+    f.key = m.key;
     mps__loop_run_cheap(g->parallel, &begin_rows, MPS__ANY_DIM, n, &f);
     mps__scan(g->parallel, s->number, n);
     mps__values_gather(g->device, &count_cells, MPS__ANY_DIM, n, &f, g->told->cells);
-    g->sorted.key_now = f.key;
-    g->sorted.order_now = f.order;
+    g->sorted.key_now = m.key;
+    g->sorted.order_now = m.order;
 }
 
 void mps__grid_count(const mps__grid *g, mps__grid_level *l)

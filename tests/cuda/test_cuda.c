@@ -96,7 +96,7 @@ static void steps_fail(void **state)
         {"cuLaunchKernel", 3, MPS_E_PLUGIN},       {"cuMemcpyHtoDAsync_v2", 3, MPS_E_PLUGIN},
         {"cuMemcpyDtoHAsync_v2", 3, MPS_E_PLUGIN}, {"cuMemcpyDtoDAsync_v2", 3, MPS_E_PLUGIN},
         {"cuMemsetD8Async", 3, MPS_E_PLUGIN},      {"cuStreamSynchronize", 3, MPS_E_PLUGIN},
-        {"cuCtxPushCurrent_v2", 9, MPS_E_NOMEM},  {"cuCtxPushCurrent_v2", 80, MPS_E_PLUGIN},
+        {"cuCtxPushCurrent_v2", 9, MPS_E_NOMEM},   {"cuCtxPushCurrent_v2", 80, MPS_E_PLUGIN},
         {"cuMemAlloc_v2", 3, MPS_E_NOMEM},
     };
     mps_sim *host = rolling("imps", 2);

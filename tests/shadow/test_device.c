@@ -273,9 +273,9 @@ static void assert_in(const char *what, const cost *c, double value, double leas
 static void costs(void **state)
 {
     static const cost table[] = {
-        {"imps", 2, {190, 210}, {9, 13}, {0.01, 2}, {13, 20}},
-        {"imps", 3, {192, 212}, {10, 14}, {0.005, 1}, {3, 6}},
-        {"mmps", 2, {172, 192}, {10, 14}, {5, 11}, {26, 36}},
+        {"imps", 2, {190, 210}, {8, 10}, {0.01, 2}, {5, 9}},
+        {"imps", 3, {192, 212}, {8, 10}, {0.005, 1}, {1, 2}},
+        {"mmps", 2, {184, 204}, {8, 10}, {0, 1}, {3, 7}},
     };
     (void)state;
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {

@@ -215,7 +215,7 @@ mps_status mps__twins_open(mps__twins *t, const mps__plan *p)
     if (!t->step) return MPS_OK;
     for (int32_t k = 0; k < FIELDS; k++) t->list[k].bytes = 0;
     MPS__TRY(open_constants(t));
-    MPS__TRY(mps__twin_fit(t, &t->results, MPS__LATER_ROOM + sizeof(double), sizeof(double)));
+    MPS__TRY(mps__twin_fit(t, &t->results, sizeof(mps__results), sizeof(double)));
     MPS__TRY(open_fields(t));
     for (int32_t k = 0; k < p->begin[MPS_HOOK_COUNT]; k++)
         for (int32_t u = 0; u < p->call[k].use_count; u++)

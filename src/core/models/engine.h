@@ -136,8 +136,8 @@ void *mps__twins_given(mps__twins *t, void *array, bool all);
 /* Arrays of a view, likewise; with those of constants where loops see it. */
 void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
-/* Room at the device for MPS__LATER_ROOM bytes and a number. */
-static inline void *mps__twins_results(mps__twins *t)
+/* An mps__results at the device. */
+static inline void *mps__twins_results(const mps__twins *t)
 {
     return t->results.data;
 }

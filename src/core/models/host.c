@@ -369,8 +369,8 @@ void mps__host_begin(mps__host *h)
 {
     memset(h->seconds, 0, sizeof h->seconds);
     h->step = NULL; /* that of the step before is gone */
-    h->laters.count = 0;
-    h->laters.used = 0;
+    h->laters.count = h->laters.sums = h->laters.maxima = 0;
+    memset(h->wrong, 0, sizeof h->wrong);
     h->densities.agreed = false;
     h->before_call = NULL;
     h->in_calls = 0;

@@ -48,12 +48,13 @@ typedef struct mps__host {
     mps__sets sets;    /* bodies */
     mps__plan plan;
     mps__twins twins;
-    mps__densities densities; /* of the phases */
-    mps__laters laters;       /* of the step in progress */
-    const mps_view *view;     /* of the step in progress, with arrays of the host */
-    mps__reactions reactions; /* of the step in progress */
-    mps__gas gas;             /* likewise */
-    void *step;               /* the step in progress, for passes; NULL before MPS_LIMIT */
+    mps__densities densities;       /* of the phases */
+    mps__laters laters;             /* of the step in progress */
+    const mps_view *view;           /* of the step in progress, with arrays of the host */
+    mps__reactions reactions;       /* of the step in progress */
+    bool wrong[MPS__MODELS_ACTIVE]; /* models that reported what is not finite, at a device */
+    mps__gas gas;                   /* likewise */
+    void *step;                     /* the step in progress, for passes; NULL before MPS_LIMIT */
     void (*before_call)(void *step, const mps__call *); /* what verbs see may have changed */
     double seconds[MPS_STAGE_COUNT];                    /* of the step, by MPS_STAGE_... */
     double clock;    /* when a part of the step was booked last, or the step began [s] */
@@ -89,11 +90,13 @@ void mps__host_do_later(mps__host *h, mps__then then);
 void mps__host_settle(mps__host *h);
 /* The same, with a number of at most 8 bytes that the copy brings too: `array` is of the device. */
 void mps__host_settle_with(mps__host *h, const void *array, void *out, size_t bytes);
+/* `then` gets the sums of a device, as mps__reactions.sum but rounded, or NULL: all of them are on the host. reaction.c */
+void mps__host_reactions_later(mps__host *h, mps__then then);
 /* Fail for reactions at a device that are not finite; known when all that waits is done. reaction.c */
 mps_status mps__host_check_reactions(const mps__host *h, double t);
-/* Place at the device for values to come. */
-void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then);
-void *mps__laters_join(mps__host *h, int32_t sums, mps__joins joins);
+/* Places at the device for values to come. */
+mps_exact *mps__laters_sums(mps__host *h, int32_t count, mps__then then);
+double *mps__laters_maxima(mps__host *h, int32_t count, mps__then then);
 /* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
 const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);

@@ -1,65 +1,86 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Values that wait at a device. */
 #include "host.h"
-#include <math.h>
+#include "loop.h"
 #include <string.h>
 
-static void *place(mps__host *h, int32_t sums, int32_t maxima, mps__then then, mps__joins joins)
+static mps__results *results_of(const mps__host *h)
+{
+    return h->twins.open ? mps__twins_results(&h->twins) : NULL;
+}
+
+/* Note what is to come; sums or maxima, or none. */
+static mps__later *add(mps__host *h, int32_t sums, int32_t maxima, mps__then then)
 {
     mps__laters *l = &h->laters;
-    if (l->count == MPS__LATERS) mps__host_settle(h);
-    const size_t bytes = (size_t)sums * sizeof(mps_exact) + (size_t)maxima * sizeof(double);
-    l->list[l->count++] = (mps__later){then, joins, sums, maxima, l->used};
-    l->used += bytes;
-    return (char *)mps__twins_results(&h->twins) + l->used - bytes;
+    if (l->count == MPS__LATERS || l->sums + sums > MPS__LATER_VALUES ||
+        l->maxima + maxima > MPS__LATER_VALUES)
+        mps__host_settle(h);
+    mps__later *k = &l->list[l->count++];
+    *k = (mps__later){then, sums, maxima, sums > 0 ? l->sums : l->maxima};
+    l->sums += sums;
+    l->maxima += maxima;
+    return k;
 }
 
-void *mps__laters_place(mps__host *h, int32_t sums, int32_t maxima, mps__then then)
+mps_exact *mps__laters_sums(mps__host *h, int32_t count, mps__then then)
 {
-    return place(h, sums, maxima, then, (mps__joins){NULL, NULL, 0});
+    const mps__later *k = add(h, count, 0, then);
+    return results_of(h)->sum + k->at;
 }
 
-void *mps__laters_join(mps__host *h, int32_t sums, mps__joins joins)
+double *mps__laters_maxima(mps__host *h, int32_t count, mps__then then)
 {
-    return place(h, sums, 0, (mps__then){NULL, NULL}, joins);
+    const mps__later *k = add(h, 0, count, then);
+    return results_of(h)->value + k->at;
 }
 
 void mps__host_do_later(mps__host *h, mps__then then)
 {
     if (h->laters.count > 0)
-        mps__laters_place(h, 0, 0, then);
+        add(h, 0, 0, then);
     else
         then.run(then.owner, NULL);
 }
 
-/* What was to be done with one of them. */
-static void run_then(const mps__later *k, const char *all)
+typedef struct rounding {
+    const mps_exact *sum;
+    double *value;
+} rounding;
+
+MPS_ROW void round_row(const int dim, const rounding *f, int64_t i)
 {
-    double values[MPS_PARALLEL_VALUES];
-    mps_exact sum[MPS_PARALLEL_VALUES];
-    memcpy(sum, all + k->at, (size_t)k->sums * sizeof *sum);
-    if (k->joins.run) {
-        k->joins.run(k->joins.owner, k->joins.number, sum);
-        return;
-    }
-    for (int32_t m = 0; m < k->sums; m++) values[m] = mps_exact_value(&sum[m]);
-    if (k->maxima > 0) memcpy(values, all + k->at, (size_t)k->maxima * sizeof *values);
-    k->then.run(k->then.owner, values);
+    (void)dim;
+    f->value[i] = mps_exact_value(&f->sum[i]);
+}
+MPS__LOOP_ANY(round_rows, round_row, rounding)
+
+/* All values in one copy, and `bytes` of an array of the device behind them. */
+static void fetch(mps__host *h, const void *array, size_t bytes, double *value)
+{
+    const mps__laters *l = &h->laters;
+    mps__device *d = &h->twins.device;
+    mps__results *there = results_of(h);
+    const size_t values = (size_t)(l->maxima + l->sums);
+    mps__loop_run(&d->parallel, &round_rows, MPS__ANY_DIM, l->sums,
+                  &(rounding){there->sum, there->value + l->maxima});
+    if (bytes > 0) mps__device_copy(d, there->value + values, array, bytes);
+    mps__device_download(d, value, there->value, values * sizeof *value + bytes);
 }
 
 void mps__host_settle_with(mps__host *h, const void *array, void *out, size_t bytes)
 {
     mps__laters *l = &h->laters;
-    mps__device *d = &h->twins.device;
-    char all[MPS__LATER_ROOM + sizeof(double)];
-    char *there = h->twins.open ? mps__twins_results(&h->twins) : NULL;
-    const size_t begin = l->used;
-    if (bytes > 0) mps__device_copy(d, there + begin, array, bytes);
-    if (begin + bytes > 0) mps__device_download(d, all, there, begin + bytes);
-    for (int32_t k = 0; k < l->count && !d->failed; k++) run_then(&l->list[k], all);
-    if (bytes > 0 && !d->failed) memcpy(out, all + begin, bytes);
-    l->count = 0;
-    l->used = 0;
+    const bool failed = h->twins.device.failed;
+    double value[2 * MPS__LATER_VALUES + 1];
+    const double *sum = value + l->maxima;
+    if (l->maxima + l->sums > 0 || bytes > 0) fetch(h, array, bytes, value);
+    for (int32_t k = 0; k < l->count && !failed && !h->twins.device.failed; k++) {
+        const mps__later *own = &l->list[k];
+        own->then.run(own->then.owner, own->sums > 0 ? sum + own->at : value + own->at);
+    }
+    if (bytes > 0 && !h->twins.device.failed) memcpy(out, sum + l->sums, bytes);
+    l->count = l->sums = l->maxima = 0;
 }
 
 void mps__host_settle(mps__host *h)

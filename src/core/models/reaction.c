@@ -42,55 +42,118 @@ static int32_t line_of(const mps_stage *s, const mps__host *h)
 static const char not_finite[] =
     "the acceleration that a solid gives the fluid, by mps_stage_reaction(), is not finite";
 
-/* Add the sums of one place. @return false: not finite */
-static bool add_sums(mps__host *h, int32_t place, int32_t line, const mps_exact sums[6])
-{
-    for (int d = 0; d < 6; d++) {
-        if (!isfinite(mps_exact_value(&sums[d]))) return false;
-        mps_exact_join(&h->reactions.sum[place][d], &sums[d]);
-        mps_exact_join(&h->reactions.sum[line][d], &sums[d]);
-    }
-    return true;
-}
-
 /* Add the rows of one place. @return non-zero: not finite */
 static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
 {
     mps_exact sums[6] = {{{0}, 0, 0}};
+    mps_exact(*all)[6] = h->reactions.sum;
     double none[1];
+    const int32_t line = line_of(s, h);
     k->wanted = place;
+    h->reactions.here = true;
     mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
-    return add_sums(h, place, line_of(s, h), sums) ? 0 : mps_stage_fail(s, "%s", not_finite);
-}
-
-/* The number has the model, the place and the line. */
-static void join_place(void *host, int32_t number, const mps_exact *sums)
-{
-    mps__host *h = host;
-    const int32_t line = number % MPS__LINES, place = number / MPS__LINES % MPS__REACTIONS,
-                  model = number / MPS__LINES / MPS__REACTIONS;
-    if (!add_sums(h, place, line, sums) && !h->reactions.wrong)
-        h->reactions.wrong = h->models->on[model].ops->name;
-}
-
-/* Those of all places at a device, where it is not known which occur. Nothing waits for them. */
-static int add_there(mps_stage *s, mps__host *h, report *k)
-{
-    const int32_t model = (int32_t)(h->model - h->models->on);
-    for (int32_t p = MPS__REACTION_WHOLE; p <= MPS__REACTION_WHOLE + h->particles->parts; p++) {
-        const int32_t number = (model * MPS__REACTIONS + p) * MPS__LINES + line_of(s, h);
-        k->wanted = p;
-        mps__values_gather(&h->twins.device, &add_rows, s->view->dim, s->view->n, k,
-                           mps__laters_join(h, 6, (mps__joins){join_place, h, number}));
+    for (int d = 0; d < 6; d++) {
+        if (!isfinite(mps_exact_value(&sums[d]))) return mps_stage_fail(s, "%s", not_finite);
+        mps_exact_join(&all[place][d], &sums[d]);
+        mps_exact_join(&all[line][d], &sums[d]);
     }
     return 0;
 }
 
+/* ---- at a device ---- */
+
+enum { WIDTH = 6 };
+
+typedef struct joining {
+    mps_exact *sum, *line;     /* of the first place; NULL: of no line */
+    const mps_exact *reported; /* of the first place */
+    int32_t places;
+} joining;
+
+/* Row i is number i of the sums; those behind the places are of the line, which takes all places. */
+MPS_ROW void join_row(const int dim, const joining *f, int64_t i)
+{
+    const int64_t number = i % WIDTH;
+    (void)dim;
+    if (i < (int64_t)f->places * WIDTH)
+        mps_exact_join(&f->sum[i], &f->reported[i]);
+    else
+        for (int32_t p = 0; p < f->places; p++)
+            mps_exact_join(&f->line[number], &f->reported[p * WIDTH + number]);
+}
+MPS__LOOP_ANY(join_rows, join_row, joining)
+
+/* The maximum: whether any is not finite. */
+MPS_ROW void poison_row(const int dim, const joining *f, int64_t i, double *most)
+{
+    (void)dim;
+    if (!isfinite(mps_exact_value(&f->reported[i]))) *most = 1;
+}
+MPS__VALUES_ANY(poisons, poison_row, joining, 0, 1)
+
+static void join_there(mps__host *h, const joining *k)
+{
+    mps__loop_run(&h->twins.device.parallel, &join_rows, MPS__ANY_DIM,
+                  WIDTH * (k->places + (k->line != NULL)), k);
+}
+
+/* The first report of a step begins with no sums. */
+static mps__results *begin_there(mps__host *h)
+{
+    mps__results *r = mps__twins_results(&h->twins);
+    if (!h->reactions.there) mps__device_clear(&h->twins.device, r->reaction, sizeof r->reaction);
+    h->reactions.there = true;
+    return r;
+}
+
+static void take_poison(void *wrong, const double *most)
+{
+    if (*most > 0) *(bool *)wrong = true;
+}
+
+/* Those of all places, as it is not known which occur. Nothing waits for them. */
+static int add_there(mps_stage *s, mps__host *h, report *k)
+{
+    mps__device *d = &h->twins.device;
+    mps__results *r = begin_there(h);
+    const joining f = {r->reaction[MPS__REACTION_WHOLE], r->reaction[line_of(s, h)], r->reported[0],
+                       1 + h->particles->parts};
+    for (int32_t p = 0; p < f.places; p++) {
+        k->wanted = MPS__REACTION_WHOLE + p;
+        mps__values_gather(d, &add_rows, s->view->dim, s->view->n, k, r->reported[p]);
+    }
+    join_there(h, &f);
+    mps__values_gather(
+        d, &poisons, MPS__ANY_DIM, WIDTH * f.places, &f,
+        mps__laters_maxima(h, 1, (mps__then){take_poison, &h->wrong[h->model - h->models->on]}));
+    return 0;
+}
+
+void mps__host_reactions_later(mps__host *h, mps__then then)
+{
+    const int32_t places = MPS__REACTION_WHOLE + 1 + h->particles->parts;
+    const size_t bytes = (size_t)places * sizeof h->reactions.sum[0];
+    mps__results *r = mps__twins_results(&h->twins);
+    if (!h->reactions.there) {
+        mps__host_do_later(h, then);
+        return;
+    }
+    if (h->reactions.here) { /* a verb that runs on the host reported too */
+        mps__device_upload(&h->twins.device, r->reported, h->reactions.sum, bytes);
+        join_there(h, &(joining){r->reaction[0], NULL, r->reported[0], places});
+    }
+    mps__device_copy(&h->twins.device, mps__laters_sums(h, WIDTH * places, then), r->reaction,
+                     bytes);
+}
+
 mps_status mps__host_check_reactions(const mps__host *h, double t)
 {
-    if (!h->reactions.wrong) return MPS_OK;
-    return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s: %s", h->reactions.wrong,
-                     t, not_finite);
+    const mps__models *m = h->models;
+    for (int32_t k = 0; k < m->active; k++)
+        if (h->wrong[k])
+            return mps__fail(h->context, MPS_E_PLUGIN, "model '%s' at t = %.9g s: %s",
+                             m->on[k].ops->name, t, not_finite);
+    return MPS_OK;
 }
 
 /* The solid nearest to a fluid row, of those as near the one with the least id; -1: there is none. */

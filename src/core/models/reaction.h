@@ -22,8 +22,8 @@ enum { MPS__REACTION_WHOLE = MPS__LINES, MPS__REACTIONS = MPS__LINES + 1 + MPS__
 
 /* Of one step, as this rank knows it: force on the fluid and moment about the centre of the tank's motion, in the lab. */
 typedef struct mps__reactions {
-    bool any;          /* a verb reported, on all ranks */
-    const char *wrong; /* model whose sums at a device are not finite, or NULL */
+    bool any;         /* a verb reported, on all ranks */
+    bool here, there; /* on the host; on a device, which has sums too: mps__results.reaction */
     mps_exact sum[MPS__REACTIONS][6];
     /* kinetic energy beside that of the particles, by lines: at the beginning of the step, and at its end [J] */
     double kinetic_before[MPS__LINES], kinetic[MPS__LINES];

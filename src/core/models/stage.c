@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops, sums and scratch for verbs of models: the one place where these loops are. Rows are owned particles. */
 #include "host.h"
+#include "sort.h"
 #include "terms.h"
 #include <math.h>
 #include <stdarg.h>
@@ -192,7 +193,7 @@ void mps__host_sum_later(mps__host *h, const mps_view *v, int32_t count, const m
     double sums[MPS_PARALLEL_VALUES];
     mps__device *d = mps__device_of(h->parallel);
     if (d) {
-        launch(d, &k, NULL, NULL, mps__laters_place(h, count, 0, then));
+        launch(d, &k, NULL, NULL, mps__laters_sums(h, count, then));
         return;
     }
     mps__host_sum(h, v, count, add, fields, sums);
@@ -206,7 +207,7 @@ void mps__host_max_later(mps__host *h, const mps_view *v, int32_t count, const m
     double maxima[MPS_PARALLEL_VALUES];
     mps__device *d = mps__device_of(h->parallel);
     if (d) {
-        launch(d, &k, NULL, NULL, mps__laters_place(h, 0, count, then));
+        launch(d, &k, NULL, NULL, mps__laters_maxima(h, count, then));
         return;
     }
     for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
@@ -292,27 +293,60 @@ static void chain_rows(const mps_view *v, const mps_grid *grid, int32_t *first, 
     }
 }
 
-/* The same with chains at a device. */
+/* ---- chains at a device: rows are sorted by their buckets ---- */
+
+typedef struct chaining {
+    mps_grid grid;
+    uint64_t *key; /* of rows; of places that are in order */
+    int32_t *order;
+    int32_t *first, *next;
+} chaining;
+
+MPS_ROW void bucket_row(const int dim, const mps_view *v, const chaining *f, int64_t i)
+{
+    int64_t cell[3];
+    mps_grid_cell(&f->grid, v->x + i * dim, cell);
+    f->key[i] = mps_is_fluid(v, i) ? (uint64_t)mps_grid_bucket(&f->grid, cell) : UINT64_MAX;
+    f->order[i] = (int32_t)i;
+}
+MPS_ROWS(bucket_rows, bucket_row, chaining)
+
+MPS_ROW void chain_row(const int dim, const mps_view *v, const chaining *f, int64_t a)
+{
+    const uint64_t key = f->key[a];
+    (void)dim;
+    if (key == UINT64_MAX) return;
+    if (a == 0 || f->key[a - 1] != key) f->first[key] = f->order[a] + 1;
+    f->next[f->order[a]] = a + 1 < v->n && f->key[a + 1] == key ? f->order[a + 1] + 1 : 0;
+}
+MPS_ROWS(chain_there_rows, chain_row, chaining)
+
+/* Scratch until the end of a call. NULL: out of memory. */
+static void *room_there(mps__host *h, int32_t block, size_t bytes)
+{
+    void *room = NULL;
+    if (h->scratch_used + block < MPS__SCRATCH)
+        room = mps__twins_room(&h->twins, h->scratch_used + block, bytes);
+    h->no_memory = h->no_memory || !room;
+    return room;
+}
+
 static int chain_there(mps_stage *s, const mps_grid *grid, int32_t *first, int32_t *next)
 {
     mps__host *h = host_of(s);
-    const size_t bytes = (size_t)s->view->n * sizeof *first;
-    const mps_view *there = mps__host_begin_serial(s);
-    int32_t *own_first = mps_stage_scratch_integers(s, s->view->n),
-            *own_next = mps_stage_scratch_integers(s, s->view->n);
-    int failed = !own_first || !own_next;
-    if (!failed) {
-        mps__twins_ready(&h->twins, MPS__POSITION, MPS__ON_HOST);
-        failed = h->twins.device.failed;
-    }
-    if (!failed) {
-        chain_rows(s->view, grid, own_first, own_next);
-        mps__device_upload(&h->twins.device, first, own_first, bytes);
-        mps__device_upload(&h->twins.device, next, own_next, bytes);
-        h->scratch_used -= 2;
-    }
-    mps__host_end_serial(s, there);
-    return failed;
+    const int64_t n = s->view->n;
+    uint64_t *key = room_there(h, 0, 2 * (size_t)n * sizeof *key);
+    int32_t *order = room_there(h, 1, 2 * (size_t)n * sizeof *order);
+    chaining f = {*grid, key, order, first, next};
+    mps__sorting m = {
+        .n = n, .run = 1, .key = key, .order = order, .new_key = key + n, .new_order = order + n};
+    if (!key || !order) return 1;
+    mps_stage_rows(s, &bucket_rows, &f);
+    mps__merge_sort(h->parallel, &m);
+    f.key = (uint64_t *)m.key;
+    f.order = (int32_t *)m.order;
+    mps_stage_rows(s, &chain_there_rows, &f);
+    return 0;
 }
 
 int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)

@@ -2,6 +2,7 @@
 /* The order of particles by their cells. */
 #include "neighbours.h"
 #include "loop.h"
+#include "sort.h"
 #include <math.h>
 #include <string.h>
 
@@ -212,79 +213,28 @@ mps_status mps__neighbours_order(mps_neighbours *l, int64_t n, const double *x, 
 
 /* ---- on a device ---- */
 
-/* Runs that are in order become runs of several: a place knows its new one from its own in its run, and from how many of each other run come
- * before it. Keys and ids together are all different: there is one order only. */
-enum { MPS__WAYS = 4 };
-
-typedef struct merging {
-    int64_t n, run;
-    const int64_t *id;
-    const uint64_t *key;
-    const int32_t *order;
-    uint64_t *new_key;
-    int32_t *new_order;
-} merging;
-
-/* Places of a run that come before place a. */
-MPS_ROW int64_t count_before(const merging *m, int64_t a, int64_t run)
-{
-    const int64_t begin = run * m->run < m->n ? run * m->run : m->n;
-    const int64_t end = begin + m->run < m->n ? begin + m->run : m->n;
-    const uint64_t key = m->key[a];
-    const int64_t id = m->id[m->order[a]];
-    int64_t lo = begin, hi = end;
-    while (lo < hi) {
-        const int64_t b = lo + (hi - lo) / 2;
-        const uint64_t other = m->key[b];
-        if (other < key || (other == key && m->id[m->order[b]] < id))
-            lo = b + 1;
-        else
-            hi = b;
-    }
-    return lo - begin;
-}
-
-MPS_ROW void merge_row(const int dim, const merging *m, int64_t a)
-{
-    const int64_t own = a / m->run, first = own - own % MPS__WAYS;
-    int64_t to = first * m->run + a % m->run;
-    (void)dim;
-    for (int64_t run = first; run < first + MPS__WAYS; run++)
-        if (run != own) to += count_before(m, a, run);
-    m->new_key[to] = m->key[a];
-    m->new_order[to] = m->order[a];
-}
-MPS__LOOP_ANY(merge_rows, merge_row, merging)
-
-MPS_ROW bool begins_crowd(const merging *m, int64_t a)
+MPS_ROW bool begins_crowd(const mps__sorting *m, int64_t a)
 {
     return a + MPS__CROWD < m->n && m->key[a + MPS__CROWD] == m->key[a];
 }
-MPS__FIRST(crowds, begins_crowd, merging)
+MPS__FIRST(crowds, begins_crowd, mps__sorting)
 
 const int32_t *mps__neighbours_order_there(mps_neighbours *l, int64_t n, double re_far,
                                            const mps__order_arrays *there)
 {
     double corner[6];
-    merging m = {.n = n,
-                 .run = 1,
-                 .id = there->id,
-                 .key = there->key,
-                 .order = there->order,
-                 .new_key = there->key + n,
-                 .new_order = there->order + n};
+    mps__sorting m = {.n = n,
+                      .run = 1,
+                      .id = there->id,
+                      .key = there->key,
+                      .order = there->order,
+                      .new_key = there->key + n,
+                      .new_order = there->order + n};
     l->valid = l->sorted = false;
     if (!find_cells(l, n, there->x, re_far + l->skin, corner)) return NULL;
     mps__loop_run(l->parallel, &key_rows, l->dim, n,
                   &(keying){l->cells, there->x, there->key, there->order});
-    for (; m.run < n; m.run *= MPS__WAYS) {
-        mps__loop_run(l->parallel, &merge_rows, MPS__ANY_DIM, n, &m);
-        const merging from = m;
-        m.key = from.new_key;
-        m.order = from.new_order;
-        m.new_key = (uint64_t *)from.key;
-        m.new_order = (int32_t *)from.order;
-    }
+    mps__merge_sort(l->parallel, &m);
     return mps__first_run(l->parallel, &crowds, n, &m) == n ? m.order : NULL;
 }
 

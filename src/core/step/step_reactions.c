@@ -3,10 +3,14 @@
 #include "step.h"
 #include <string.h>
 
-/* A sum of mps__reactions, force and moment. */
-static void value_of(const mps__reactions *r, int32_t place, double value[6])
+enum { PLACES = MPS__REACTIONS * 6 };
+
+/* The sums of mps__reactions: forces and moments of all ranks. */
+static void find_values(mps__world *w, int32_t places, double *value)
 {
-    for (int k = 0; k < 6; k++) value[k] = mps_exact_value(&r->sum[place][k]);
+    mps_exact *sum = w->host.reactions.sum[0];
+    mps__ranks_sum(w->ghosts.ranks, 6 * places, sum);
+    for (int32_t k = 0; k < 6 * places; k++) value[k] = mps_exact_value(&sum[k]);
 }
 
 /* A vector of the lab, in the frame of the tank. */
@@ -31,7 +35,7 @@ static void book_kinetic(const mps__reactions *r, double *const line[MPS__LINES]
     b->layers = now;
 }
 
-static void add_reactions(void *step, const double *none)
+static void add_reactions(void *step, const double *given)
 {
     mps__step *q = step;
     mps__world *w = q->w;
@@ -41,24 +45,27 @@ static void add_reactions(void *step, const double *none)
                                       [MPS__LINE_COLLISION] = &b->collision,
                                       [MPS__LINE_FRICTION] = &b->friction,
                                       [MPS__LINE_PLUGINS] = &b->plugins};
-    double value[6];
-    (void)none;
+    const int32_t places = MPS__REACTION_WHOLE + 1 + w->particles.parts;
+    double value[PLACES];
     memset(q->reaction, 0, sizeof q->reaction);
     book_kinetic(r, line, b);
     if (!r->any) return;
-    mps__ranks_sum(w->ghosts.ranks, 6 * (MPS__REACTION_WHOLE + 1 + w->particles.parts), r->sum[0]);
+    if (given)
+        memcpy(value, given, (size_t)(6 * places) * sizeof *value);
+    else
+        find_values(w, places, value);
     for (int k = 0; k < MPS__LINES; k++) {
-        value_of(r, k, value);
-        const double work = mps__budget_tank_work(w, &q->pose, value, q->view.dt);
+        const double *sum = value + 6 * k,
+                     work = mps__budget_tank_work(w, &q->pose, sum, q->view.dt);
         *line[k] += work;
         b->wall_work_momentum += work;
         b->wall_work_probes += work;
-        for (int d = 0; d < w->setup.dim; d++) b->momentum.reaction[d] += q->view.dt * value[d];
+        for (int d = 0; d < w->setup.dim; d++) b->momentum.reaction[d] += q->view.dt * sum[d];
     }
     for (int32_t k = 0; k <= w->particles.parts; k++) {
-        value_of(r, MPS__REACTION_WHOLE + k, value);
-        to_tank(&w->motion.now, value, q->reaction[k].force);
-        to_tank(&w->motion.now, value + 3, q->reaction[k].moment);
+        const double *sum = value + 6 * (MPS__REACTION_WHOLE + k);
+        to_tank(&w->motion.now, sum, q->reaction[k].force);
+        to_tank(&w->motion.now, sum + 3, q->reaction[k].moment);
     }
 }
 
@@ -66,7 +73,7 @@ static void add_reactions(void *step, const double *none)
 static mps_status book_reactions(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__host_do_later(&q->w->host, (mps__then){add_reactions, q});
+    mps__host_reactions_later(&q->w->host, (mps__then){add_reactions, q});
     return MPS_OK;
 }
 
