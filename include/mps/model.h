@@ -184,6 +184,12 @@ typedef struct mps_model_ops {
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_VERSION, MPS_E_BUSY */
 MPS_API mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops);
 
+/** Densities of the fluid, by phases. Most steps need no loop over the rows for them. All ranks
+ *  call it.
+ *  @param least  NULL, or [MPS_PHASES] out: of the fluid of each phase; 0 without any [kg/m3]
+ *  @param greatest  likewise */
+MPS_API void mps_stage_densities(const mps_stage *s, double *least, double *greatest);
+
 MPS_END_DECLS
 
 #endif

@@ -289,14 +289,7 @@ MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, const mps_sums *ad
 MPS_API void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *raise,
                            const void *fields, double *maxima);
 
-/** Densities of the fluid, by phases. Most steps need no loop over the rows for them. All ranks
- *  call it.
- *  @param least,greatest  [MPS_PHASES] out: of the fluid of each phase, 0 for a phase without fluid; or
- *         NULL [kg/m3] */
-MPS_API void mps_stage_densities(const mps_stage *s, double *least, double *greatest);
-
-/** Mark rows that have a near neighbour among the member rows. A row without pairs (solids away
- *  from fluid, dummies) is not marked.
+/** Mark rows with a near neighbour among the member rows. Solids away from fluid have no pairs.
  *  @param member  [n] not 0 for member rows @param beside  [n] out: 1 or 0
  *  @return 0, or non-zero after a failure (the error is set) */
 MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
@@ -321,8 +314,7 @@ enum {
 MPS_API int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body);
 
 /** Rows by square cells, for searches beyond the far radius: bucket b holds the rows of all
- *  cells with that bucket, ascending: r = first[b] - 1, then
- *  r = next[r] - 1, ... until r is -1. */
+ *  cells with that bucket, ascending: r = first[b] - 1, then r = next[r] - 1, until r is -1. */
 typedef struct mps_grid {
     /** Set by mps_grid_init(), or sizeof(mps_grid). */
     uint32_t struct_size;
