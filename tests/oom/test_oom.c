@@ -125,7 +125,7 @@ static mps_status stl_solid(mps_sim *sim)
 /* A tetrahedron. */
 static void write_stl(void)
 {
-    static const double corner[4][3] = {{0, 0, 0}, {0.8, 0, 0}, {0, 0.8, 0}, {0, 0, 0.8}};
+    static const double corner[4][3] = {{0, 0, 0}, {0.4, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}};
     static const int face[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
     FILE *file = fopen(stl_path, "w");
     assert_non_null(file);
