@@ -365,7 +365,7 @@ def breaking_pressures(book):
             continue
         void, gas, ratio, low, high, share = found
         yield Check(says, f"ratio of the means over 5 ms {ratio:.2f}, band of 90 % {low:.2f} to {high:.2f}, {void} and {gas} runs; above {CUSHIONED} in {100 * share:.0f} % of the pairs of runs",
-                    bool(low > CUSHIONED), "without air the first impact falls with the spacing, with air it grows" if high < CUSHIONED else "the runs scatter too much to tell")
+                    bool(low > CUSHIONED), "without air the first impact falls with the spacing, with air it does not" if high < CUSHIONED else "the runs scatter too much to tell")
 
 
 def breaking(book):

@@ -240,11 +240,22 @@ static int take_look(mps__grid *g, const mps_ppe_problem *problem, const mps__gr
     return 0;
 }
 
+/* Place and size of the first grid, and whether it had them before. */
+static bool lies_as_before(mps__grid *g, const mps_ppe_problem *problem, const double *least,
+                           double size)
+{
+    const double before[3] = {g->corner[0], g->corner[1], g->corner[2]};
+    bool same = g->laid && g->size == size;
+    mps__grid_lay(g, problem, least);
+    for (int a = 0; a < problem->dim; a++) same = same && g->corner[a] == before[a];
+    g->laid = true;
+    return same;
+}
+
 int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_level *l = &g->level[0];
-    const double before[] = {g->corner[0], g->corner[1], g->corner[2], g->size};
-    const bool laid = g->laid;
+    const double size = g->size;
     mps__grid_told told = {.square = 0};
     mps__grid_common common = {.square = 0};
     if (problem->n >= INT32_MAX) return MPS_PPE_BREAKDOWN;
@@ -254,10 +265,7 @@ int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem)
     mps__device_download(g->device, &told, g->told, sizeof told);
     const int reason = take_look(g, problem, &told, &common);
     if (reason) return reason;
-    mps__grid_lay(g, problem, common.least);
-    g->laid = true;
-    const double now[] = {g->corner[0], g->corner[1], g->corner[2], g->size};
-    if (laid && memcmp(now, before, sizeof now) == 0) {
+    if (lies_as_before(g, problem, common.least, size)) {
         mps__grid_counted(l, told.cells);
         return 0;
     }

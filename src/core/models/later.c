@@ -61,7 +61,7 @@ static void fetch(mps__host *h, const void *array, size_t bytes, double *value)
     const mps__laters *l = &h->laters;
     mps__device *d = &h->twins.device;
     mps__results *there = results_of(h);
-    const size_t values = (size_t)(l->maxima + l->sums);
+    const size_t values = (size_t)l->maxima + (size_t)l->sums;
     mps__loop_run(&d->parallel, &round_rows, MPS__ANY_DIM, l->sums,
                   &(rounding){there->sum, there->value + l->maxima});
     if (bytes > 0) mps__device_copy(d, there->value + values, array, bytes);
