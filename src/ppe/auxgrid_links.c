@@ -134,7 +134,7 @@ MPS__VALUES_ANY(measure_rows, measure_row, rows, 3, 1)
 static void take_measure(mps__grid *g, const mps_ppe_problem *problem, const mps_exact sums[3],
                          double most)
 {
-    double v[3];
+    double v[3] = {0};
     for (int k = 0; k < 3; k++) v[k] = mps_exact_value(&sums[k]);
     g->one = !(v[0] * v[1] > one_density * v[2] * v[2]);
     g->dim = problem->dim;
