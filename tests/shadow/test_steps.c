@@ -134,6 +134,42 @@ static void other_scenes(void **state)
     }
 }
 
+/* A particle that comes to a wall from behind: the step before has told of it, once. */
+static mps_sim *spilling(int32_t dim)
+{
+    const double dp = dim == 2 ? 0.05 : 0.1, x[3] = {-7 * dp, 0.35, 0.2}, u[3] = {40 * dp, 0, 0};
+    mps_sim *sim = unwatched("imps", dim);
+    mps_particle_block b;
+    sim->world.setup.lost_policy = MPS_LOST_REMOVE;
+    assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
+    b.count = 1;
+    b.position = x;
+    b.velocity = u;
+    ASSERT_OK(sim, mps_particles_add(sim, &b, NULL));
+    return sim;
+}
+
+static void liquid_behind_a_wall(void **state)
+{
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) {
+        mps_sim *host = spilling(dim), *sim = spilling(dim);
+        int told = 0;
+        shadow s;
+        shadow_attach(&s, sim);
+        for (int k = 0; k < 30; k++) {
+            told += sim->world.ahead.most[MPS__AHEAD_SPILLED] > 0 && sim->world.state.lost == 0;
+            go(host, 1);
+            go(sim, 1);
+            same(host, sim);
+        }
+        assert_int_equal(sim->world.state.lost, 1);
+        assert_int_equal(told, 1);
+        mps_sim_destroy(host);
+        mps_sim_destroy(sim);
+    }
+}
+
 /* Two drops in the air: bodies that nothing holds, which come to the host to be counted. */
 static mps_sim *drops(int32_t dim)
 {
@@ -384,13 +420,10 @@ static void without_room(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(drops_are_free),
-        cmocka_unit_test(presets),
-        cmocka_unit_test(other_scenes),
-        cmocka_unit_test(other_solutions),
-        cmocka_unit_test(all_models),
-        cmocka_unit_test(plugins),
-        cmocka_unit_test(an_undeclared_use_is_found),
+        cmocka_unit_test(drops_are_free),  cmocka_unit_test(presets),
+        cmocka_unit_test(other_scenes),    cmocka_unit_test(liquid_behind_a_wall),
+        cmocka_unit_test(other_solutions), cmocka_unit_test(all_models),
+        cmocka_unit_test(plugins),         cmocka_unit_test(an_undeclared_use_is_found),
         cmocka_unit_test(without_room),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);

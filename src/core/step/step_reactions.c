@@ -46,14 +46,12 @@ static void add_reactions(void *step, const double *given)
                                       [MPS__LINE_FRICTION] = &b->friction,
                                       [MPS__LINE_PLUGINS] = &b->plugins};
     const int32_t places = MPS__REACTION_WHOLE + 1 + w->particles.parts;
-    double value[PLACES];
+    double found[PLACES];
+    const double *value = given ? given : found;
     memset(q->reaction, 0, sizeof q->reaction);
     book_kinetic(r, line, b);
     if (!r->any) return;
-    if (given)
-        memcpy(value, given, (size_t)(6 * places) * sizeof *value);
-    else
-        find_values(w, places, value);
+    if (!given) find_values(w, places, found);
     for (int k = 0; k < MPS__LINES; k++) {
         const double *sum = value + 6 * k,
                      work = mps__budget_tank_work(w, &q->pose, sum, q->view.dt);
