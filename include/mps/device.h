@@ -58,6 +58,9 @@ typedef struct mps_launch {
     /** NULL, or a number of the device. If it is not 0 when the rows are about to run, nothing
      *  reads any more what they would write: a device may leave them out. */
     const int64_t *unless;
+    /** NULL, or [n] bytes of the device: rows whose byte is not 0 are left out. Their terms are 0,
+     *  and they raise no maximum. `run` knows them. */
+    const uint8_t *skip;
 } mps_launch;
 
 /** A device. A function must not be NULL unless its comment allows it. */

@@ -89,7 +89,7 @@ int cuda_rows(void *self, const mps_launch *l)
 {
     cuda *c = self;
     if (cuda_enter(c)) return 1;
-    const int failed = run(c, l, (mps__launch){.n = l->n, .unless = l->unless});
+    const int failed = run(c, l, (mps__launch){.n = l->n, .unless = l->unless, .skip = l->skip});
     cuda_leave(c);
     return failed;
 }
@@ -200,7 +200,8 @@ static int values(cuda *c, const mps_launch *l, void *to, results *r)
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
                               .terms = terms,
-                              .unless = l->unless};
+                              .unless = l->unless,
+                              .skip = l->skip};
     return run(c, l, head) || join_all(c, l, terms, r);
 }
 

@@ -39,6 +39,10 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     return bits;
 }
 
+/* Whether a loop of models leaves a row out: that of a particle of another rank. */
+#define MPSK__SKIPS(given, i) \
+    (mpsk__bits(&(given).skip) != 0 && ((MPSK__GLOBAL uint8_t *)mpsk__bits(&(given).skip))[i])
+
 /* Both dimensions; `work` is what a row does, with dim_ and i_. */
 #define MPSK__BOTH(name, work)                               \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
@@ -60,13 +64,14 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
         given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
 
 #undef MPS_ROWS
-#define MPS_ROWS(name, row, type)                                    \
-    typedef struct name##_given {                                    \
-        mps__launch launch;                                          \
-        mps_view view;                                               \
-        type fields;                                                 \
-    } name##_given;                                                  \
-    MPSK__BOTH(name, row(dim_, &given_->view, &given_->fields, i_);) \
+#define MPS_ROWS(name, row, type)                                 \
+    typedef struct name##_given {                                 \
+        mps__launch launch;                                       \
+        mps_view view;                                            \
+        type fields;                                              \
+    } name##_given;                                               \
+    MPSK__BOTH(name, if (MPSK__SKIPS(given_->launch, i_)) return; \
+               row(dim_, &given_->view, &given_->fields, i_);)    \
     static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
 
 /* MPS_SUMS() does not say how many values a row has. A loop that stays one stores those that the compiler sees to be `first` still: code for each of
@@ -102,7 +107,9 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     } name##_given;                                                                              \
     MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                                           \
                for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] = given_->launch.first; \
-               row(dim_, &given_->view, &given_->fields, i_, own_); MPSK__STORE_SOME)            \
+               if (!MPSK__SKIPS(given_->launch, i_))                                             \
+                   row(dim_, &given_->view, &given_->fields, i_, own_);                          \
+               MPSK__STORE_SOME)                                                                 \
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
 
 #undef MPS__LOOP

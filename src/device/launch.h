@@ -17,6 +17,7 @@ typedef struct mps__launch {
     double first;          /* what the values of MPS_SUMS() begin with */
     double *terms;         /* [count * n] out: value k of row i is terms[k * n + i] */
     const int64_t *unless; /* that of the launch */
+    const uint8_t *skip;   /* likewise */
 } mps__launch;
 
 /* Threads of a group. */

@@ -59,10 +59,10 @@ SIZE(mps_load, 456);
 AT(mps_load, struct_size, 0); AT(mps_load, has_mass, 4); AT(mps_load, force, 8); AT(mps_load, rest, 56); AT(mps_load, mass, 104);
 AT(mps_load, acceleration, 392); AT(mps_load, dt, 440); AT(mps_load, iterations, 448); AT(mps_load, reserved, 452);
 
-SIZE(mps_launch, 88);
+SIZE(mps_launch, 96);
 AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8); AT(mps_launch, file, 16); AT(mps_launch, name, 24);
 AT(mps_launch, view, 32); AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56); AT(mps_launch, maxima, 60);
-AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, unless, 80);
+AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, unless, 80); AT(mps_launch, skip, 88);
 
 SIZE(mps_device_ops, 136);
 AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8); AT(mps_device_ops, self, 16);

@@ -322,7 +322,8 @@ static int rows(void *self, const mps_launch *l)
         return 0;
     }
     if (run_host(o, l, NULL, NULL)) return 1;
-    if (run_kernel(o, k, l, (mps__launch){.n = l->n, .unless = l->unless})) return 1;
+    if (run_kernel(o, k, l, (mps__launch){.n = l->n, .unless = l->unless, .skip = l->skip}))
+        return 1;
     compare_rooms(o, k);
     return 0;
 }
@@ -348,7 +349,8 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
                               .terms = opencl_terms(o, count, l->n),
-                              .unless = l->unless};
+                              .unless = l->unless,
+                              .skip = l->skip};
     if (!head.terms) return fail(o, "no room for terms");
     if (run_kernel(o, k, l, head)) return 1;
     compare_rooms(o, k);

@@ -376,7 +376,7 @@ static void skin_rows(void **state)
     assert_int_equal(mps__neighbours_search(&l, c.n, c.x, near_radius, far_radius), MPS_OK);
     for (int64_t i = 0; i < c.n * 2; i++)
         c.x[i] += 0.35 * l.skin * cloud_random(&seed); /* at most 0.35 sqrt(2) < 0.5 skins */
-    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, far_radius));
+    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, far_radius));
     mps__neighbours_rows(&l, c.x);
     check_list(&c, &l);
     mps__neighbours_free(&l);
@@ -390,22 +390,23 @@ static void skin_limit(void **state)
     mps_neighbours l;
     cloud c = cloud_lattice(3, 6, 6, 6, 0.3, 62);
     assert_int_equal(mps__neighbours_init(&l, &context, 3, CLOUD_DP), MPS_OK);
-    assert_false(mps__neighbours_fresh(&l, 0, c.x, l.searched, far_radius)); /* never searched */
+    assert_false(
+        mps__neighbours_fresh(&l, 0, c.x, l.searched, NULL, far_radius)); /* never searched */
     assert_int_equal(mps__neighbours_search(&l, c.n, c.x, near_radius, far_radius), MPS_OK);
-    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, far_radius));
-    assert_false(mps__neighbours_fresh(&l, c.n - 1, c.x, l.searched, far_radius));
-    assert_false(mps__neighbours_fresh(&l, c.n, c.x, l.searched, 1.1 * far_radius));
+    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, far_radius));
+    assert_false(mps__neighbours_fresh(&l, c.n - 1, c.x, l.searched, NULL, far_radius));
+    assert_false(mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, 1.1 * far_radius));
     double *last = c.x + 3 * (c.n - 1), kept = last[2];
     last[2] = kept + 0.49 * l.skin;
-    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, far_radius));
+    assert_true(mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, far_radius));
     last[2] = kept + 0.51 * l.skin;
-    assert_false(mps__neighbours_fresh(&l, c.n, c.x, l.searched, far_radius));
+    assert_false(mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, far_radius));
     last[2] = kept;
     assert_int_equal(mps__neighbours_order(&l, c.n, c.x, NULL, far_radius), MPS_OK);
     assert_false(
-        mps__neighbours_fresh(&l, c.n, c.x, l.searched, far_radius)); /* about to be sorted */
+        mps__neighbours_fresh(&l, c.n, c.x, l.searched, NULL, far_radius)); /* about to be sorted */
     mps__neighbours_free(&l);
-    assert_false(mps__neighbours_fresh(&l, 0, c.x, l.searched, far_radius));
+    assert_false(mps__neighbours_fresh(&l, 0, c.x, l.searched, NULL, far_radius));
     cloud_free(&c);
 }
 

@@ -171,7 +171,7 @@ mps_launch._fields_ = [
     ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("file", c_char_p), ("name", c_char_p),
     ("view", POINTER(mps_view)), ("fields", c_void_p), ("bytes", c_uint64), ("sums", c_int32), ("maxima", c_int32),
     ("run", CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(mps_exact), POINTER(c_double))), ("host", c_void_p),
-    ("unless", POINTER(c_int64)),
+    ("unless", POINTER(c_int64)), ("skip", POINTER(c_uint8)),
 ]
 mps_device_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("self", c_void_p),

@@ -3,6 +3,21 @@
 #include "sim.h"
 #include <mps/device.h>
 
+/* Ranks wait for each other in the same order only if all of them have a device, or none. */
+static mps_status all_alike(mps_sim *sim, bool device)
+{
+    mps__ranks *r = &sim->world.ranks;
+    double most[2] = {device, !device};
+    if (!mps__ranks_many(r)) return MPS_OK;
+    mps__ranks_max(r, 2, most);
+    MPS__TRY(mps__ranks_status(r));
+    return most[0] > 0 && most[1] > 0
+               ? mps__fail(&sim->context, MPS_E_ARG,
+                           "some of the %d ranks set a device, others none: must be all or none",
+                           (int)r->count)
+               : MPS_OK;
+}
+
 mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
 {
     MPS__CHANGES(sim);
@@ -10,14 +25,13 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     const int32_t open = mps__particles_leases(&w->particles);
     if (open)
         return mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them first", open);
-    if (ops && w->ranks.count > 1)
-        return mps__fail(&sim->context, MPS_E_STATE,
-                         "the handle has %d ranks: a device is for one rank", (int)w->ranks.count);
+    MPS__TRY(all_alike(sim, ops != NULL));
     /* a new search needs none of the last one */
     if (mps__world_fetch_lists(w) < 0) w->lists.neighbours.valid = false;
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
     mps__ppe_leave(&w->ppe, &w->host.twins.device);
-    return mps__twins_attach(&w->host.twins, ops);
+    mps__ghosts_leave(&w->ghosts);
+    return mps__ranks_tell(&w->ranks, mps__twins_attach(&w->host.twins, ops));
 }
 
 mps_status mps_device_info_init(mps_device_info *info, size_t size)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Calls of a device: what is checked, counted, and what a failure does. */
 #include "device.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -223,8 +224,19 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
                                     (size_t)launch->maxima * sizeof *maxima);
 }
 
+/* Results of no rows, which a rank may have. */
+static void put_nothing(mps__device *d, const mps_launch *launch, void *to)
+{
+    double lowest[MPS_PARALLEL_VALUES];
+    const size_t sums = (size_t)launch->sums * sizeof(mps_exact);
+    for (int32_t k = 0; k < launch->maxima; k++) lowest[k] = -INFINITY;
+    mps__device_clear(d, to, sums);
+    mps__device_upload(d, (char *)to + sums, lowest, (size_t)launch->maxima * sizeof *lowest);
+}
+
 void mps__device_gather(mps__device *d, mps_launch *launch, void *to)
 {
+    if (launch->n == 0) put_nothing(d, launch, to);
     if (d->failed || launch->n == 0) return;
     complete(d, launch);
     note(d, d->ops.gather(d->ops.self, launch, to));

@@ -100,7 +100,8 @@ static mps_status join_border(const search *k, mps__host *h, double *label)
     mps__set *part = h->sets.part;
     for (int64_t i = 0; i < k->s->n; i++)
         label[i] = k->body[i] >= 0 ? (double)part[k->body[i]].label : -1;
-    MPS__TRY(mps__ghosts_share(h->ghosts, &(mps__shared){label, sizeof *label}, 1));
+    MPS__TRY(
+        mps__ghosts_share(h->ghosts, &(mps__shared){.values = label, .bytes = sizeof *label}, 1));
     for (int64_t i = 0; i < k->s->n; i++)
         for (int64_t p = mps_stencil_begin(t, i); k->body[i] >= 0 && p < mps_stencil_end(t, i);
              p++) {
@@ -163,6 +164,27 @@ static int find_free(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
     if (merge_bodies(s, &k, count)) return 1;
     h->scratch_used--; /* the queue is not needed any more */
     return 0;
+}
+
+int mps__bodies_away(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
+{
+    mps__host *h = s->host;
+    mps__device *d = &h->twins.device;
+    const size_t bytes = (size_t)s->view->n * sizeof *role;
+    const int32_t used = h->scratch_used;
+    const mps_view *there = mps__host_begin_serial(s);
+    int32_t *own_role = mps_stage_scratch_integers(s, s->view->n),
+            *own_body = mps_stage_scratch_integers(s, s->view->n);
+    int failed = !own_role || !own_body;
+    mps__twins_lists_ready(&h->twins);
+    if (!failed) {
+        mps__device_download(d, own_role, role, bytes);
+        failed = d->failed || find_free(s, most, own_role, own_body);
+    }
+    if (!failed) mps__device_upload(d, body, own_body, bytes);
+    h->scratch_used = used;
+    mps__host_end_serial(s, there);
+    return failed;
 }
 
 int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)

@@ -8,13 +8,19 @@
 
 typedef struct joining {
     const int32_t *role;
+    const uint8_t *ghost;              /* NULL: alone */
     mps__shared_number *parent, *held; /* of a root: 1 if a row of its tree is beside an anchor */
     int64_t *number; /* of a row without an anchor; of others that of the one before */
-    int64_t
-        *list; /* of such a row its id; place of its root in this list, and whether it is a seed */
+    int64_t *list; /* of such a row its id; place of its root in this list, and flags of the row */
     const int32_t *given; /* bodies of those rows */
     int32_t *body;
 } joining;
+
+/* Whether row i is one of a tree here. */
+MPS_ROW bool has(const mps_view *v, const joining *f, int64_t i)
+{
+    return mps__owns(f->ghost, i) && mps__body_has(v, f->role, i);
+}
 
 /* Most rows come into the tree of their first neighbour at once. */
 MPS_ROW void begin_row(const int dim, const mps_view *v, const joining *f, int64_t i)
@@ -25,8 +31,7 @@ MPS_ROW void begin_row(const int dim, const mps_view *v, const joining *f, int64
     (void)dim;
     if (mps__body_has(v, f->role, i) && begin < mps_stencil_end(t, i))
         first = mps_stencil_column(t, begin);
-    mps__forest_put(&f->parent[i],
-                    (int32_t)(first < i && mps__body_has(v, f->role, first) ? first : i));
+    mps__forest_put(&f->parent[i], (int32_t)(first < i && has(v, f, first) ? first : i));
     mps__forest_put(&f->held[i], 0);
 }
 MPS_ROWS(begin_rows, begin_row, joining)
@@ -38,7 +43,7 @@ MPS_ROW void join_row(const int dim, const mps_view *v, const joining *f, int64_
     if (!mps__body_has(v, f->role, i)) return;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         const int32_t j = mps_stencil_column(t, p);
-        if (j < i && mps__body_has(v, f->role, j) &&
+        if (j < i && has(v, f, j) &&
             mps__forest_get(&f->parent[j]) != mps__forest_get(&f->parent[i]))
             mps__forest_join(f->parent, (int32_t)i, j);
     }
@@ -71,6 +76,20 @@ MPS_ROW bool is_listed(const joining *f, int64_t i)
     return f->number[i] > (i > 0 ? f->number[i - 1] : 0);
 }
 
+/* Whether a row has a member of another rank beside it. */
+MPS_ROW bool at_border(const mps_view *v, const joining *f, int64_t i)
+{
+    const mps_stencil *t = &v->near;
+    for (int64_t p = mps_stencil_begin(t, i); f->ghost && p < mps_stencil_end(t, i); p++) {
+        const int32_t j = mps_stencil_column(t, p);
+        if (f->ghost[j] && mps__body_has(v, f->role, j)) return true;
+    }
+    return false;
+}
+
+/* A place and flags in one number. */
+enum { FLAGS = 8 };
+
 MPS_ROW void list_row(const int dim, const mps_view *v, const joining *f, int64_t i)
 {
     (void)dim;
@@ -78,7 +97,8 @@ MPS_ROW void list_row(const int dim, const mps_view *v, const joining *f, int64_
     int64_t *at = f->list + 2 * (f->number[i] - 1);
     const int32_t root = mps__forest_root(f->parent, (int32_t)i);
     at[0] = v->id[i];
-    at[1] = 2 * (f->number[root] - 1) + (f->role[i] == MPS_BODY_SEED);
+    at[1] = FLAGS * (f->number[root] - 1) + (f->role[i] == MPS_BODY_SEED ? MPS__BODY_SEEDED : 0) +
+            (at_border(v, f, i) ? MPS__BODY_PARTED : 0);
 }
 MPS_ROWS(list_rows, list_row, joining)
 
@@ -91,47 +111,72 @@ MPS_ROWS(give_rows, give_row, joining)
 
 /* ---- on the host ---- */
 
-/* Bodies of the rows in a list: a root is the first of its rows. */
-static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int32_t most,
-                                int32_t *body)
+/* Parts of bodies, from the rows in a list: a root is the first of its rows. */
+static mps_status list_parts(mps__host *h, int64_t *list, int64_t count, int32_t *body)
 {
     mps__sets *sets = &h->sets;
     mps__sets_begin(sets, h->context);
     for (int64_t k = 0; k < count; k++) {
-        const int64_t root = list[2 * k + 1] / 2;
+        const int64_t root = list[2 * k + 1] / FLAGS;
         body[k] = root == k ? (int32_t)sets->parts : body[root];
         if (root == k) MPS__TRY(mps__sets_add(sets, &(mps__set){.label = INT64_MAX}));
         mps__set *part = &sets->part[body[k]];
         part->rows++;
         part->label = list[2 * k] < part->label ? list[2 * k] : part->label;
-        part->flags |= list[2 * k + 1] % 2 ? MPS__BODY_SEEDED : 0;
+        part->flags |= (int32_t)(list[2 * k + 1] % FLAGS);
     }
+    return MPS_OK;
+}
+
+/* Large parts are held, wherever they go on. @return whether any rank has another part that goes on elsewhere */
+static bool any_parted(mps__host *h, int32_t most)
+{
+    mps__sets *sets = &h->sets;
+    double any = 0;
+    for (int64_t k = 0; k < sets->parts; k++) {
+        mps__set *part = &sets->part[k];
+        if (!(part->flags & MPS__BODY_PARTED)) continue;
+        if (part->rows <= most) any = 1;
+        part->flags |= MPS__BODY_HELD;
+    }
+    mps__ranks_max(h->ghosts->ranks, 1, &any);
+    return any > 0;
+}
+
+/* Bodies of the rows in a list. `parted`: they cannot be told from what each rank has alone. */
+static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int32_t most,
+                                int32_t *body, bool *parted)
+{
+    mps__sets *sets = &h->sets;
+    MPS__TRY(list_parts(h, list, count, body));
+    *parted = any_parted(h, most);
+    if (*parted) return MPS_OK;
     /* merging sorts the parts: labels are kept at their roots */
     for (int64_t k = 0; k < count; k++)
-        if (list[2 * k + 1] / 2 == k) list[2 * k] = sets->part[body[k]].label;
+        if (list[2 * k + 1] / FLAGS == k) list[2 * k] = sets->part[body[k]].label;
     MPS__TRY(mps__sets_merge(sets, h->ghosts->ranks));
     mps__bodies_number(sets, most);
     for (int64_t k = 0; k < count; k++)
-        body[k] = mps__sets_find(sets, list[list[2 * k + 1] / 2 * 2])->number;
+        body[k] = mps__sets_find(sets, list[list[2 * k + 1] / FLAGS * 2])->number;
     return MPS_OK;
 }
 
 /* The list comes, and the bodies of its rows go. */
-static int number_here(mps_stage *s, int64_t count, int32_t most, const int64_t *list,
-                       int32_t *given)
+static int number_here(mps_stage *s, int64_t count, int32_t most, const joining *f, int32_t *given,
+                       bool *parted)
 {
     mps__host *h = s->host;
     mps__device *d = &h->twins.device;
     const mps_view *there = mps__host_begin_serial(s);
-    int64_t *own = (int64_t *)(void *)mps_stage_scratch(s, 2 * count);
-    int32_t *body = mps_stage_scratch_integers(s, count);
+    int64_t *own = (int64_t *)(void *)mps_stage_scratch(s, 2 * count + 1);
+    int32_t *body = mps_stage_scratch_integers(s, count + 1);
     int failed = !own || !body;
     if (!failed) {
-        mps__device_download(d, own, list, (size_t)(2 * count) * sizeof *own);
+        mps__device_download(d, own, f->list, (size_t)(2 * count) * sizeof *own);
         failed = d->failed;
     }
     if (!failed) {
-        const mps_status status = number_listed(h, own, count, most, body);
+        const mps_status status = number_listed(h, own, count, most, body, parted);
         h->no_memory = h->no_memory || status == MPS_E_NOMEM;
         failed = status < 0;
         mps__device_upload(d, given, body, (size_t)count * sizeof *body);
@@ -142,39 +187,44 @@ static int number_here(mps_stage *s, int64_t count, int32_t most, const int64_t 
 
 /* ---- both ---- */
 
-static int number_bodies(mps_stage *s, int32_t most, joining *f)
+static int number_bodies(mps_stage *s, int32_t most, joining *f, bool *parted)
 {
     mps__host *h = s->host;
+    const int64_t n = s->view->n;
     int64_t count = 0;
-    mps__scan(h->parallel, f->number, s->view->n);
-    mps__device_download(&h->twins.device, &count, f->number + s->view->n - 1, sizeof count);
+    mps__scan(h->parallel, f->number, n);
+    if (n > 0) mps__device_download(&h->twins.device, &count, f->number + n - 1, sizeof count);
     if (h->twins.device.failed) return 1;
-    if (count == 0) return 0;
-    int32_t *given = mps_stage_scratch_integers(s, count);
-    f->list = (int64_t *)(void *)mps_stage_scratch(s, 2 * count);
+    if (count == 0 && !mps__ranks_many(h->ghosts->ranks)) return 0;
+    int32_t *given = mps_stage_scratch_integers(s, count + 1);
+    f->list = (int64_t *)(void *)mps_stage_scratch(s, 2 * count + 1);
     f->given = given;
     if (!f->list || !given) return 1;
-    mps_stage_rows(s, &list_rows, f);
-    return number_here(s, count, most, f->list, given);
+    if (count > 0) mps_stage_rows(s, &list_rows, f);
+    return number_here(s, count, most, f, given, parted);
 }
 
-int mps__bodies_there(mps_stage *s, int32_t most, const int32_t *role, int32_t *body)
+int mps__bodies_there(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
 {
     mps__host *h = s->host;
     const int64_t n = s->view->n;
     const int32_t used = h->scratch_used;
+    const mps_shared shared = {.values = role, .components = 1, .type = MPS_TYPE_INTEGER};
+    bool parted = false;
     joining f = {.role = role,
+                 .ghost = mps__ghosts_seen(h->ghosts, &h->twins.device),
                  .parent = (mps__shared_number *)(void *)mps_stage_scratch_integers(s, n),
                  .held = (mps__shared_number *)(void *)mps_stage_scratch_integers(s, n),
                  .number = (int64_t *)(void *)mps_stage_scratch(s, mps__scan_room(n)),
                  .body = body};
-    if (!f.parent || !f.held || !f.number) return 1;
+    if (!f.parent || !f.held || !f.number || mps_stage_refresh(s, 1, &shared)) return 1;
     mps_stage_rows(s, &begin_rows, &f);
     mps_stage_rows(s, &join_rows, &f);
     mps_stage_rows(s, &hold_rows, &f);
     mps_stage_rows(s, &mark_rows, &f);
-    const int failed = number_bodies(s, most, &f);
-    if (!failed) mps_stage_rows(s, &give_rows, &f);
+    int failed = number_bodies(s, most, &f, &parted);
+    if (!failed && !parted) mps_stage_rows(s, &give_rows, &f);
     h->scratch_used = used;
+    if (!failed && parted) failed = mps__bodies_away(s, most, role, body);
     return failed;
 }

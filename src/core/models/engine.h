@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Where the arrays of a step are valid: on the host, or in the memory of a device, which loops of calls may run on. This is the one place that
- * knows, and the one that copies. Without a device all is on the host. On many ranks there is none. */
+ * knows, and the one that copies. Without a device all is on the host. */
 #ifndef MPS_CORE_ENGINE_H
 #define MPS_CORE_ENGINE_H
 
 #include "device.h"
+#include "ghosts.h"
 #include "plan.h"
 #include <mps/stage.h>
 
@@ -158,6 +159,9 @@ void mps__twins_fields_ready(mps__twins *t);
 void mps__twins_lists_ready(mps__twins *t);
 /* The values at a place have changed. */
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place);
+/* What ghosts get of a channel, or of a field: the array at the place that has its newest values, where theirs are about to change. */
+mps__shared mps__twins_shared(mps__twins *t, int32_t channel);
+mps__shared mps__twins_shared_field(mps__twins *t, int32_t field);
 /* The array at a place. */
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place);
 

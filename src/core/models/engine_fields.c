@@ -243,6 +243,28 @@ void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
     if (twin) mps__twin_change(t, twin, host, place, true);
 }
 
+/* The device, where both places have the newest values. */
+static mps__shared shared_of(mps__twins *t, mps__twin *twin, void *host, size_t bytes)
+{
+    const bool there = t->open && twin && twin->bytes > 0 && !twin->old[MPS__ON_DEVICE];
+    if (t->open && twin)
+        mps__twin_change(t, twin, host, there ? MPS__ON_DEVICE : MPS__ON_HOST, false);
+    return (mps__shared){there ? twin->data : host, bytes, there};
+}
+
+mps__shared mps__twins_shared(mps__twins *t, int32_t channel)
+{
+    return shared_of(t, t->open ? mps__twin_of(t, channel) : NULL,
+                     mps__channels_array(t->channels, t->particles, channel),
+                     mps__channels_bytes(t->channels, t->particles, channel));
+}
+
+mps__shared mps__twins_shared_field(mps__twins *t, int32_t field)
+{
+    const mps__field *f = &t->particles->field[field];
+    return shared_of(t, twin_of_field(t, field), *f->data, (size_t)f->components * f->size);
+}
+
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)
 {
     const mps__twin *twin = place == MPS__ON_DEVICE ? mps__twin_of(t, channel) : NULL;

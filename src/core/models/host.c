@@ -137,10 +137,9 @@ static mps_status share(mps__host *h, const int32_t *channel, int32_t count)
                                      : mps__channels_stale(h->channels, h->particles, channel[k]);
         if (!stale || !*stale) continue;
         *stale = false;
-        shared[found++] = (mps__shared){mps__channels_array(h->channels, h->particles, channel[k]),
-                                        mps__channels_bytes(h->channels, h->particles, channel[k])};
+        shared[found++] = mps__twins_shared(&h->twins, channel[k]);
     }
-    return mps__ghosts_share(h->ghosts, shared, found);
+    return mps__ghosts_share_at(h->ghosts, &h->twins.device, shared, found);
 }
 
 void mps__host_all_alike(mps__host *h)

@@ -56,7 +56,7 @@ MPS_ROW void round_row(const int dim, const rounding *f, int64_t i)
 MPS__LOOP_ANY(round_rows, round_row, rounding)
 
 /* All values in one copy, and `bytes` of an array of the device behind them. */
-static void fetch(mps__host *h, const void *array, size_t bytes, double *value)
+static void fetch_rounded(mps__host *h, const void *array, size_t bytes, double *value)
 {
     const mps__laters *l = &h->laters;
     mps__device *d = &h->twins.device;
@@ -68,13 +68,31 @@ static void fetch(mps__host *h, const void *array, size_t bytes, double *value)
     mps__device_download(d, value, there->value, values * sizeof *value + bytes);
 }
 
+/* The same of all ranks: sums are rounded when they are joined. */
+static void fetch_joined(mps__host *h, const void *array, size_t bytes, double *value)
+{
+    const mps__laters *l = &h->laters;
+    mps__device *d = &h->twins.device;
+    mps__results *there = results_of(h);
+    mps_exact sum[MPS__LATER_VALUES] = {{{0}, 0, 0}};
+    memset(value, 0, (size_t)l->maxima * sizeof *value + bytes); /* where the device fails */
+    if (bytes > 0) mps__device_copy(d, there->value + l->maxima, array, bytes);
+    mps__device_download(d, sum, there->sum, (size_t)l->sums * sizeof *sum);
+    mps__device_download(d, value, there->value, (size_t)l->maxima * sizeof *value + bytes);
+    if (bytes > 0) memmove(value + l->maxima + l->sums, value + l->maxima, bytes);
+    if (l->maxima > 0) mps__ranks_max(h->ghosts->ranks, l->maxima, value);
+    if (l->sums > 0) mps__ranks_sum(h->ghosts->ranks, l->sums, sum);
+    for (int32_t k = 0; k < l->sums; k++) value[l->maxima + k] = mps_exact_value(&sum[k]);
+}
+
 void mps__host_settle_with(mps__host *h, const void *array, void *out, size_t bytes)
 {
     mps__laters *l = &h->laters;
     const bool failed = h->twins.device.failed;
     double value[2 * MPS__LATER_VALUES + 1];
     const double *sum = value + l->maxima;
-    if (l->maxima + l->sums > 0 || bytes > 0) fetch(h, array, bytes, value);
+    if (l->maxima + l->sums > 0 || bytes > 0)
+        (mps__ranks_many(h->ghosts->ranks) ? fetch_joined : fetch_rounded)(h, array, bytes, value);
     for (int32_t k = 0; k < l->count && !failed && !h->twins.device.failed; k++) {
         const mps__later *own = &l->list[k];
         own->then.run(own->then.owner, own->sums > 0 ? sum + own->at : value + own->at);

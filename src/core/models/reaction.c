@@ -212,7 +212,7 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
     mps__host *h = s->host;
     const mps_view *v = s->view;
     report k = {.kind = v->kind,
-                .ghost = h->ghosts->ghost,
+                .ghost = mps__ghosts_seen(h->ghosts, mps__device_of(h->parallel)),
                 .x = v->x,
                 .rho = mps__twins_seen(&h->twins, h->particles->rho),
                 .acceleration = acceleration,

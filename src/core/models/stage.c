@@ -105,13 +105,18 @@ static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *
                        double *maxima)
 {
     const job *k = host;
-    part own = {.k = k, .sums = sums, .maxima = maxima};
     if (k->rows)
-        k->rows->run(k->v, k->fields, begin, end);
+        run_rows((void *)k, begin, end);
     else if (k->raises)
-        raise_rows(&own, begin, end);
+        run_maxima((void *)k, begin, end, maxima);
     else
-        sum_rows(&own, begin, end);
+        run_sums((void *)k, begin, end, sums, NULL);
+}
+
+/* Rows that a loop leaves out: of particles of other ranks. */
+static const uint8_t *skip_of(const job *k, mps__device *d)
+{
+    return k->rows && k->h->everywhere ? NULL : mps__ghosts_seen(k->h->ghosts, d);
 }
 
 /* Source file of a loop of the library; loops of others run on the host, and those of older headers have none. */
@@ -140,7 +145,8 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
                     .sums = k.raises ? 0 : k.count,
                     .maxima = k.raises ? k.count : 0,
                     .run = run_launch,
-                    .host = &k};
+                    .host = &k,
+                    .skip = skip_of(&k, d)};
     if (to)
         mps__device_gather(d, &l, to);
     else
@@ -341,11 +347,13 @@ static int chain_there(mps_stage *s, const mps_grid *grid, int32_t *first, int32
     mps__sorting m = {
         .n = n, .run = 1, .key = key, .order = order, .new_key = key + n, .new_order = order + n};
     if (!key || !order) return 1;
+    h->everywhere = true; /* ghosts are in the grid too */
     mps_stage_rows(s, &bucket_rows, &f);
     mps__merge_sort(h->parallel, &m);
     f.key = (uint64_t *)m.key;
     f.order = (int32_t *)m.order;
     mps_stage_rows(s, &chain_there_rows, &f);
+    h->everywhere = false;
     return 0;
 }
 
@@ -369,6 +377,7 @@ int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)
 {
     enum { MOST = 16 };
     mps__shared list[MOST];
+    mps__host *h = host_of(s);
     if (count < 1 || count > MOST)
         return mps_stage_fail(s, "refresh: %d arrays: must be 1..%d", (int)count, MOST);
     for (int32_t k = 0; k < count; k++) {
@@ -382,9 +391,10 @@ int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)
                                   (int)k, (int)a->type);
         list[k] = (mps__shared){a->values,
                                 (size_t)a->components *
-                                    (a->type == MPS_TYPE_REAL ? sizeof(double) : sizeof(int32_t))};
+                                    (a->type == MPS_TYPE_REAL ? sizeof(double) : sizeof(int32_t)),
+                                h->twins.place == MPS__ON_DEVICE};
     }
-    return mps__ghosts_share(host_of(s)->ghosts, list, count) < 0;
+    return mps__ghosts_share_at(h->ghosts, &h->twins.device, list, count) < 0;
 }
 
 /* ---- scratch and errors ---- */

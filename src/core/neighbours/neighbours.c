@@ -31,12 +31,11 @@ MPS_ROW void moved_row(const int dim, const way *w, int64_t i, double *worst)
 MPS__VALUES(moved_rows, moved_row, way, 0, 1)
 
 bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x,
-                           const double *searched, double re_far)
+                           const double *searched, const uint8_t *ghost, double re_far)
 {
     double worst = 0;
     if (!mps__neighbours_within(l, n, re_far, 0)) return false;
-    mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, searched, l->ghost}, NULL,
-                    &worst);
+    mps__values_run(l->parallel, &moved_rows, l->dim, n, &(way){x, searched, ghost}, NULL, &worst);
     return mps__neighbours_within(l, n, re_far, worst);
 }
 

@@ -69,9 +69,10 @@ void mps__neighbours_free(mps_neighbours *l);
 /* Free the arrays of the last search. The next search makes new ones; it still knows how many pairs to expect. */
 void mps__neighbours_release(mps_neighbours *l);
 
-/* True if no particle moved by more than half the skin since the last search; places now and then are where loops run. */
+/* True if no particle moved by more than half the skin since the last search; places now and then are where loops run, and `ghost`, those that do
+ * not count, NULL: none. */
 bool mps__neighbours_fresh(const mps_neighbours *l, int64_t n, const double *x,
-                           const double *searched, double re_far);
+                           const double *searched, const uint8_t *ghost, double re_far);
 /* The same where the square of the longest way is known. */
 bool mps__neighbours_within(const mps_neighbours *l, int64_t n, double re_far, double square);
 /* Order of particles by cell, within a cell by id, [n] in l->order; for sorting the store before a search. It depends on positions and ids alone.

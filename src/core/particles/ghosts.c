@@ -15,7 +15,8 @@ struct mps__parcel {
 void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
                       mps__particles *particles)
 {
-    *g = (mps__ghosts){.context = context, .ranks = ranks, .particles = particles};
+    *g = (mps__ghosts){
+        .context = context, .ranks = ranks, .particles = particles, .there = {.orders = -1}};
 }
 
 static void forget_route(mps__ghosts *g)
@@ -28,7 +29,7 @@ static void forget_route(mps__ghosts *g)
 void mps__ghosts_free(mps__ghosts *g)
 {
     forget_route(g);
-    void *all[] = {g->ghost, g->run, g->send, g->receive, g->parcel, g->out, g->in};
+    void *all[] = {g->ghost, g->run, g->send, g->receive, g->parcel, g->out, g->in, g->staged};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) mps__free(g->context, all[k]);
     mps__ghosts_init(g, g->context, g->ranks, g->particles);
 }
@@ -231,6 +232,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
         if (i < g->known || owner[i] == r->rank) order[count++] = (int32_t)i;
     MPS__TRY(mps__particles_permute(s, count, order));
     memset(g->ghost + g->known, 0, (size_t)(s->n - g->known));
+    g->orders++;
     g->known = s->n;
     g->divided = true;
     s->generation = generation;
@@ -340,6 +342,7 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
     memset(g->ghost, 0, (size_t)owned);
     memset(g->ghost + owned, 1, (size_t)(s->n - owned));
     memset(g->ghost + s->n, 0, (size_t)aside);
+    g->orders++;
     g->known = s->n;
     g->reach = p->reach;
     s->generation = generation;
@@ -360,6 +363,7 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
     for (int64_t k = 0; k < g->receives; k++) g->receive[k] = place[g->receive[k]];
     memset(g->ghost, 0, (size_t)n); /* those aside are no ghosts */
     for (int64_t k = 0; k < g->receives; k++) g->ghost[g->receive[k]] = 1;
+    g->orders++;
     return find_runs(g);
 }
 
@@ -375,6 +379,7 @@ void mps__ghosts_reset(mps__ghosts *g, int64_t known)
 {
     forget_route(g);
     memset(g->ghost, 0, (size_t)g->particles->n);
+    g->orders++;
     g->known = known;
     g->runs = known > 0;
     g->run[0] = 0;
@@ -405,25 +410,48 @@ void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, i
 
 /* ---- values ---- */
 
-mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count)
+/* Values of array a that go, element by element with those of the others. */
+static void pack(const mps__ghosts *g, const mps__shared *a, const char *staged, char *out,
+                 size_t bytes)
 {
-    size_t bytes = 0, at = 0;
+    for (int64_t k = 0; k < g->sends; k++)
+        memcpy(out + (size_t)k * bytes,
+               a->there ? staged + (size_t)k * a->bytes
+                        : (const char *)a->values + (size_t)g->send[k] * a->bytes,
+               a->bytes);
+}
+
+static void unpack(const mps__ghosts *g, const mps__shared *a, char *staged, const char *in,
+                   size_t bytes)
+{
+    for (int64_t k = 0; k < g->receives; k++)
+        memcpy(a->there ? staged + (size_t)k * a->bytes
+                        : (char *)a->values + (size_t)g->receive[k] * a->bytes,
+               in + (size_t)k * bytes, a->bytes);
+}
+
+mps_status mps__ghosts_share_at(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                                int32_t count)
+{
+    size_t bytes = 0, at = 0, staged = 0;
+    bool there = false;
     if (!mps__ranks_many(g->ranks) || count == 0) return MPS_OK;
     for (int32_t a = 0; a < count; a++) bytes += shared[a].bytes;
+    for (int32_t a = 0; a < count; a++) there = there || shared[a].there;
     MPS__TRY(reserve_buffers(g, bytes));
-    for (int32_t a = 0; a < count; at += shared[a++].bytes)
-        for (int64_t k = 0; k < g->sends; k++)
-            memcpy(g->out + (size_t)k * bytes + at,
-                   (const char *)shared[a].values + (size_t)g->send[k] * shared[a].bytes,
-                   shared[a].bytes);
+    if (there) MPS__TRY(mps__ghosts_fetch(g, d, shared, count));
+    for (int32_t a = 0; a < count; at += shared[a++].bytes) {
+        pack(g, &shared[a], g->staged + (size_t)g->sends * staged, g->out + at, bytes);
+        staged += shared[a].there ? shared[a].bytes : 0;
+    }
     mps__ranks_exchange(g->ranks, &g->route, bytes, g->out, g->in);
     MPS__TRY(mps__ranks_status(g->ranks));
-    at = 0;
-    for (int32_t a = 0; a < count; at += shared[a++].bytes)
-        for (int64_t k = 0; k < g->receives; k++)
-            memcpy((char *)shared[a].values + (size_t)g->receive[k] * shared[a].bytes,
-                   g->in + (size_t)k * bytes + at, shared[a].bytes);
-    return MPS_OK;
+    at = staged = 0;
+    for (int32_t a = 0; a < count; at += shared[a++].bytes) {
+        unpack(g, &shared[a], g->staged + (size_t)g->receives * staged, g->in + at, bytes);
+        staged += shared[a].there ? shared[a].bytes : 0;
+    }
+    return there ? mps__ghosts_bring(g, d, shared, count) : MPS_OK;
 }
 
 mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x)

@@ -4,6 +4,7 @@
 #ifndef MPS_CORE_GHOSTS_H
 #define MPS_CORE_GHOSTS_H
 
+#include "device.h"
 #include "particles.h"
 #include "ranks.h"
 
@@ -20,7 +21,15 @@ typedef struct mps__placing {
 typedef struct mps__shared {
     void *values;
     size_t bytes; /* of a particle */
+    bool there;   /* the array is one of the device */
 } mps__shared;
+
+/* What a device has of the ghosts. */
+typedef struct mps__ghosts_there {
+    mps__device *device; /* NULL: nothing yet */
+    int64_t orders;      /* those of the ghosts that it has; -1: none */
+    mps__device_block ghost, send, receive, packets;
+} mps__ghosts_there;
 
 typedef struct mps__ghosts {
     mps__context *context;
@@ -41,6 +50,10 @@ typedef struct mps__ghosts {
     struct mps__parcel *parcel; /* what goes to which rank, while that is found */
     int64_t parcels, parcel_capacity, out_capacity, in_capacity;
     char *out, *in;
+    int64_t orders; /* places of ghosts, sends and receives change with each */
+    mps__ghosts_there there;
+    char *staged; /* packets of arrays of a device: to other ranks, or from them */
+    int64_t staged_capacity;
 } mps__ghosts;
 
 void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
@@ -87,10 +100,26 @@ mps_status mps__ghosts_reset_reserve(mps__ghosts *g, int64_t n);
 void mps__ghosts_reset(mps__ghosts *g, int64_t known);
 /* The store is about to be permuted: particle order[k] comes to place k. */
 mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
-/* Ghosts get the values that their owners have. */
-mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count);
+/* Ghosts get the values that their owners have. `d`: the device of arrays that are there; the device of other ranks may have others of them. */
+mps_status mps__ghosts_share_at(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                                int32_t count);
+/* The same of arrays of the host. */
+static inline mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count)
+{
+    return mps__ghosts_share_at(g, NULL, shared, count);
+}
 /* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. */
 mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x);
+
+/* `ghost` for row functions at a device, NULL: the host; NULL too where this rank has none. What a failed device returns is not read. ghosts_there.c */
+const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d);
+/* The device is about to be detached. */
+void mps__ghosts_leave(mps__ghosts *g);
+/* Packets of the arrays that are there come to g->staged, array by array, and go back from it to their ghosts. */
+mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                             int32_t count);
+mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                             int32_t count);
 
 /* Bytes of all fields of a particle; these fields one behind the other, and back. */
 size_t mps__ghosts_packet(const mps__particles *s);

@@ -178,6 +178,7 @@ mps_status mps__levels_wait(mps__ppe *e)
     double lacking = -INFINITY;
     if (e->n > 0)
         mps__device_download(e->device, &lacking, &e->counts_there->lacking, sizeof lacking);
+    if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
     e->lacking = lacking > -INFINITY;
     return mps__device_status(e->device);
 }

@@ -31,7 +31,8 @@ typedef struct assembly {
     double surface;       /* weight of pairs with one particle on the surface */
     double gain;
     const int32_t *unknown, *particle;
-    const int64_t *unknowns; /* NULL: the loop has as many rows; else how many there are */
+    const int64_t *
+        unknowns; /* NULL: the loop has as many rows; else how many there are, with those of OTHERS */
     int64_t *row;
     int32_t *col;
     float *val;
@@ -153,8 +154,8 @@ MPS__LOOP_ANY(mark_rows, mark_row, numbering)
 MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
 {
     const assembly *a = &f->terms;
-    const int64_t up_to = f->number[i],
-                  place = mps__owns(a->ghost, i) ? up_to % OTHERS : f->rows + up_to / OTHERS;
+    const int64_t up_to = f->number[i], rows = a->unknowns ? *a->unknowns % OTHERS : f->rows,
+                  place = mps__owns(a->ghost, i) ? up_to % OTHERS : rows + up_to / OTHERS;
     const bool solved = is_unknown(a, i);
     (void)dim;
     f->unknown[i] = solved ? (int32_t)place - 1 : -1;
@@ -168,7 +169,7 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
     const mps_stencil *pairs = &a->pairs;
     int64_t count = 0;
     (void)dim;
-    if (a->unknowns && r >= *a->unknowns) {
+    if (a->unknowns && r >= *a->unknowns % OTHERS) {
         a->row[r + 1] = 0;
         return;
     }
@@ -216,7 +217,7 @@ MPS__FIRST(bounded_rows, has_least, assembly)
 
 /* What is counted before there are arrays of the right size. */
 typedef struct counting {
-    int64_t particles, rows;
+    int64_t particles, rows, columns;
     const int64_t *number, *row;
     const int32_t *unknown, *particle;
     int64_t *to_row;
@@ -237,7 +238,7 @@ MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
 {
     (void)dim;
     if (i <= f->rows) f->to_row[i] = f->row[i];
-    if (i < f->rows) f->to_particle[i] = f->particle[i];
+    if (i < f->columns) f->to_particle[i] = f->particle[i];
     if (i < f->particles) f->to_unknown[i] = f->unknown[i];
 }
 MPS__LOOP_ANY(settle_rows, settle_row, counting)
@@ -270,6 +271,7 @@ static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
     counting c = {0};
     mps__ppe_counts found = {.bounded = -INFINITY};
     MPS__TRY(reserve_counting(e, &f, a, &c));
+    f.terms.unknowns = a->unknowns;
     mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
     mps__scan(parallel, f.number, s->n);
     mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
@@ -281,7 +283,8 @@ static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
         mps__device_download(e->device, &found, c.found, offsetof(mps__ppe_counts, lacking));
     }
     MPS__TRY(mps__device_status(e->device));
-    e->n = e->columns = c.rows = found.unknowns;
+    e->n = c.rows = found.unknowns % OTHERS;
+    e->columns = c.columns = e->n + found.unknowns / OTHERS;
     e->entries = found.entries;
     e->bounded = found.bounded > -INFINITY;
     MPS__TRY(mps__ppe_reserve_rows(e, s->dim));
@@ -380,7 +383,7 @@ static assembly assembly_of(const mps__ppe *e, const mps_view *s, const mps__ppe
                       .value = t->value,
                       .gas = t->gas,
                       .law = t->law,
-                      .ghost = e->ghosts ? e->ghosts->ghost : NULL,
+                      .ghost = e->ghosts ? mps__ghosts_seen(e->ghosts, e->device) : NULL,
                       .c = 2.0 * s->dim / (pairs->n0 * pairs->lambda),
                       .surface = t->equation.complete_surface ? complete_flux(pairs) : 1.0,
                       .gain = t->equation.gain};
@@ -412,10 +415,10 @@ static mps_status reserve_extras(mps__ppe *e, const mps_view *s, const assembly 
 
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
-    assembly a = assembly_of(e, s, t);
-    e->parallel = a.pairs.parallel;
+    e->parallel = s->near.parallel;
     e->device = mps__device_of(e->parallel);
     e->particles = s->n;
+    assembly a = assembly_of(e, s, t);
     MPS__TRY(e->device ? count_there(e, s, &a) : count_here(e, s, &a));
     MPS__TRY(reserve_extras(e, s, &a, t->linear));
     MPS__TRY(mps__ppe_reserve_entries(e));

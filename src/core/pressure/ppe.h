@@ -109,8 +109,9 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Make an equation that lacks a level solvable; on the host. */
 mps_status mps__ppe_close(mps__ppe *e, const mps_view *s);
-/* What mps__ppe_note() says of ranks. ppe_ranks.c */
+/* What mps__ppe_note() says of ranks; order of the columns, on the host. ppe_ranks.c */
 mps_status mps__ppe_ranks_set(mps__ppe *e);
+void mps__ppe_ranks_order(mps__ppe *e);
 /* Pressures of all particles from the solution e->p. */
 void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms *t, double *p);
 

@@ -43,6 +43,8 @@ mps_status mps__ppe_come(mps__ppe *e)
     here.unknown_there = e->unknown;
     here.p_there = e->p;
     *e = here;
+    e->ranks.order = e->order;
+    mps__ppe_ranks_order(e);
     mps__ppe_point(&e->problem, e);
     return mps__device_status(e->left);
 }

@@ -52,9 +52,10 @@ static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
 }
 
 /* Rows and columns of other ranks, merged by their particles. */
-static void order_columns(mps__ppe *e)
+void mps__ppe_ranks_order(mps__ppe *e)
 {
     int64_t row = 0, column = e->n;
+    if (e->ranks.ranks < 2) return;
     for (int64_t k = 0; k < e->columns; k++) {
         const bool own = column == e->columns ||
                          (row < e->n && e->particle[row] < e->particle[column]);
@@ -70,7 +71,6 @@ mps_status mps__ppe_ranks_set(mps__ppe *e)
                                       sizeof *rows);
     if (!rows) return MPS_E_NOMEM;
     mps__ranks_gather_number(r, e->n, rows);
-    order_columns(e);
     e->ranks = (mps_ppe_ranks){.struct_size = sizeof e->ranks,
                                .rank = r->rank,
                                .ranks = r->count,
@@ -88,5 +88,6 @@ mps_status mps__ppe_ranks_set(mps__ppe *e)
         e->ranks.first += k < r->rank ? rows[k] : 0;
         e->ranks.rows += rows[k];
     }
+    if (!e->device) mps__ppe_ranks_order(e);
     return mps__ranks_status(r);
 }

@@ -233,8 +233,9 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);
     v.flux = *flux;
     mps__host_rows(&w->host, &v, &change_rows, &f);
-    MPS__TRY(
-        mps__ghosts_share(&w->ghosts, &(mps__shared){f.a, (size_t)(count * dim) * sizeof *f.a}, 1));
+    MPS__TRY(mps__ghosts_share(
+        &w->ghosts, &(mps__shared){.values = f.a, .bytes = (size_t)(count * dim) * sizeof *f.a},
+        1));
     for (; f.first < count; f.first = f.last) {
         double sums[MPS_PARALLEL_VALUES] = {0};
         f.last = f.first + AT_ONCE(dim) < count ? f.first + AT_ONCE(dim) : count;

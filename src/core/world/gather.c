@@ -142,6 +142,8 @@ static mps_status gather(mps__world *w, bool solids)
 {
     const mps__particles *s = &w->particles;
     const size_t bytes = mps__ghosts_packet(s) + (size_t)s->dim * sizeof *s->x;
+    MPS__TRY(mps__world_fetch(w));
+    MPS__TRY(mps__world_fetch_searched(w));
     const int64_t own = pack_own(w, solids, bytes, NULL);
     char *out = mps__alloc(w->context, own, bytes), *in = NULL;
     int64_t all = 0;

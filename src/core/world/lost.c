@@ -132,7 +132,8 @@ mps_status mps__world_leave_domain(mps__world *w)
     MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* bodies move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
-    if (!w->ahead.holds && mps__world_there(w)) MPS__TRY(look_out_there(w, &v, &b, &any));
+    if (!w->ahead.holds && mps__world_there(w) && !mps__ranks_many(&w->ranks))
+        MPS__TRY(look_out_there(w, &v, &b, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     b.gone = w->work.gone;
@@ -232,8 +233,8 @@ MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int6
         speed += u * u;
     }
     if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
-    if (f->rims.rim && most[MPS__AHEAD_SPILLED] < 1)
-        most[MPS__AHEAD_SPILLED] = f->rims.rim[i] && spilled(dim, v, &f->rims, i);
+    if (most[MPS__AHEAD_SPILLED] < 1)
+        most[MPS__AHEAD_SPILLED] = !f->rims.rim || (f->rims.rim[i] && spilled(dim, v, &f->rims, i));
     if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
     if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
 }
@@ -293,7 +294,7 @@ mps_status mps__world_leave_tank(mps__world *w)
     mps_view v;
     mps__world_view(w, &v);
     if (is_told(w)) return MPS_OK;
-    if (mps__world_rows_there(w)) MPS__TRY(look_there(w, &v, &any));
+    if (mps__world_rows_there(w) && !mps__ranks_many(&w->ranks)) MPS__TRY(look_there(w, &v, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     mps__twins_rows_ready(&w->host.twins);

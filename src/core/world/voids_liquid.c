@@ -84,8 +84,9 @@ static mps_status find_liquid(mps__voids *v, mps__world *w, mps_stage *s, double
                              .side = v->side,
                              .slabs = v->slabs,
                              .tank = s->view->tank};
-    const mps__shared shared[2] = {{v->slab, sizeof *v->slab},
-                                   {v->place, (size_t)v->dim * sizeof *v->place}};
+    const mps__shared shared[2] = {
+        {.values = v->slab, .bytes = sizeof *v->slab},
+        {.values = v->place, .bytes = (size_t)v->dim * sizeof *v->place}};
     mps__values_run(&w->pool.parallel, &fluid_rows, v->dim, p->n, &f, NULL, highest);
     MPS__TRY(mps__ghosts_share(&w->ghosts, shared, 2));
     mps_stage_rows(s, &wall_rows, &f);

@@ -68,6 +68,7 @@ void mps__world_free(mps__world *w)
 {
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
     mps__ppe_leave(&w->ppe, &w->host.twins.device);
+    mps__ghosts_leave(&w->ghosts);
     mps__twins_free(&w->host.twins);
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->lists.neighbours);
@@ -214,8 +215,9 @@ static mps_status link_solids(mps__world *w)
     mps__neighbours_hide(&w->lists.neighbours);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
-    MPS__TRY(
-        mps__ghosts_share(&w->ghosts, &(mps__shared){w->particles.nd, sizeof *w->particles.nd}, 1));
+    MPS__TRY(mps__ghosts_share(
+        &w->ghosts, &(mps__shared){.values = w->particles.nd, .bytes = sizeof *w->particles.nd},
+        1));
     w->lists.linked = w->particles.solids;
     w->lists.links++;
     return MPS_OK;
@@ -354,14 +356,16 @@ mps_status mps__world_neighbours(mps__world *w)
 
 mps_status mps__world_neighbours_populated(mps__world *w)
 {
-    bool any = w->particles.n > 0;
+    enum { PARTICLES, LOOKS, THINGS };
     MPS__TRY(mps__world_adopt(w));
-    mps__world_any(w, 1, &any);
-    MPS__CHECK(w->context, any, "there are no particles");
+    bool things[THINGS] = {[PARTICLES] = w->particles.n > 0, [LOOKS] = !w->ahead.holds}, any = true;
+    mps__world_any(w, THINGS, things);
+    w->ahead.holds = !things[LOOKS]; /* where a rank has to look, all do */
+    MPS__CHECK(w->context, things[PARTICLES], "there are no particles");
     if (!mps__world_there(w)) MPS__TRY(mps__world_fetch(w));
     MPS__TRY(mps__world_reserve(w));
     mps_status status = mps__world_leave_domain(w);
-    any = w->particles.n > 0;
+    any = w->particles.n > 0 || w->lists.gone == 0;
     if (w->lists.gone > 0) mps__world_any(w, 1, &any);
     if (!any)
         status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain",

@@ -130,7 +130,8 @@ mps_status mps__world_link_ghosts(mps__world *w)
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
     for (int64_t i = 0; i < s->n; i++)
         s->wall_id[i] = s->kind[i] == MPS_DUMMY && s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
-    MPS__TRY(mps__ghosts_share(&w->ghosts, &(mps__shared){s->wall_id, sizeof *s->wall_id}, 1));
+    MPS__TRY(mps__ghosts_share(
+        &w->ghosts, &(mps__shared){.values = s->wall_id, .bytes = sizeof *s->wall_id}, 1));
     return mps__world_find_walls(w);
 }
 
@@ -139,29 +140,26 @@ mps_status mps__world_link_ghosts(mps__world *w)
 mps_status mps__world_share_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    return mps__ghosts_share(&w->ghosts, &(mps__shared){s->area, (size_t)s->dim * sizeof *s->area},
-                             1);
-}
-
-static mps__shared shared_field(const mps__field *f)
-{
-    return (mps__shared){*f->data, (size_t)f->components * f->size};
+    return mps__ghosts_share(
+        &w->ghosts, &(mps__shared){.values = s->area, .bytes = (size_t)s->dim * sizeof *s->area},
+        1);
 }
 
 mps_status mps__world_share_step(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    mps__channel *load = &w->channels.list[MPS__WALL_PRESSURE];
+    mps__twins *t = &w->host.twins;
+    bool *load = mps__channels_stale(&w->channels, s, MPS__WALL_PRESSURE);
     mps__shared shared[1 + MPS__FIELDS_MAX];
     int32_t count = 0;
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
-    if (load->stale) shared[count++] = (mps__shared){load->array, mps__channel_element(load)};
-    load->stale = false;
+    if (*load) shared[count++] = mps__twins_shared(t, MPS__WALL_PRESSURE);
+    *load = false;
     for (int32_t k = 0; k < s->fields; k++) {
-        if (s->field[k].stale) shared[count++] = shared_field(&s->field[k]);
+        if (s->field[k].stale) shared[count++] = mps__twins_shared_field(t, k);
         s->field[k].stale = false;
     }
-    return mps__ghosts_share(&w->ghosts, shared, count);
+    return mps__ghosts_share_at(&w->ghosts, &t->device, shared, count);
 }
 
 mps_status mps__world_share_written(mps__world *w)
@@ -169,8 +167,13 @@ mps_status mps__world_share_written(mps__world *w)
     const mps__particles *s = &w->particles;
     mps__shared shared[MPS__FIELDS_MAX];
     int32_t count = 0;
-    for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].is_public) shared[count++] = shared_field(&s->field[k]);
+    if (!mps__ranks_many(&w->ranks)) return MPS_OK;
+    MPS__TRY(mps__world_fetch(w));
+    for (int32_t k = 0; k < s->fields; k++) {
+        if (!s->field[k].is_public) continue;
+        shared[count++] = mps__twins_shared_field(&w->host.twins, k);
+        mps__twins_changed(&w->host.twins, *s->field[k].data);
+    }
     return mps__ghosts_share(&w->ghosts, shared, count);
 }
 
@@ -180,6 +183,10 @@ mps_status mps__world_divide(mps__world *w)
     mps_neighbours *l = &w->lists.neighbours;
     const mps__placing p = placing(w);
     const int32_t *there;
+    if (mps__ranks_many(&w->ranks)) {
+        MPS__TRY(mps__world_fetch(w)); /* particles travel from host to host */
+        mps__twins_forget(&w->host.twins);
+    }
     MPS__TRY(mps__ghosts_renew(&w->ghosts, &p, w->lists.aside));
     mps__host_all_alike(&w->host);
     MPS__TRY(mps__world_order(w, &there));
@@ -248,8 +255,8 @@ mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world 
     mps__world_keep_listed(w);
     const mps__field *f = mps__particles_field(s, listed_field);
     if (!f) return MPS_OK;
-    mps_status status = MPS_OK;
-    if (w->lists.linked == s->solids && w->lists.listed == s->generation) {
+    mps_status status = mps__world_fetch(w); /* before places are others */
+    if (status == MPS_OK && w->lists.linked == s->solids && w->lists.listed == s->generation) {
         exchange_places(s, *f->data);
         status = mps__world_divide(w);
         if (status == MPS_OK) status = search(w);

@@ -9,6 +9,12 @@ static bool device_finds(const mps__world *w)
     return w->host.twins.step && w->setup.kernel.id != MPS_KERNEL_CUSTOM;
 }
 
+/* Whether it searches, too: on many ranks particles travel from host to host first. */
+static bool device_searches(const mps__world *w)
+{
+    return device_finds(w) && !mps__ranks_many(&w->ranks);
+}
+
 bool mps__world_there(const mps__world *w)
 {
     return device_finds(w) && mps__twins_there(&w->host.twins);
@@ -72,7 +78,7 @@ mps_status mps__world_order(mps__world *w, const int32_t **there)
 {
     const mps__particles *s = &w->particles;
     *there = NULL;
-    if (device_finds(w) && w->lists.linked == s->solids) {
+    if (device_searches(w) && w->lists.linked == s->solids) {
         MPS__TRY(mps__twins_enter(&w->host.twins));
         const mps_status status = order_there(w, there);
         mps__twins_leave(&w->host.twins); /* what has failed is seen after the host's order */
@@ -120,7 +126,7 @@ mps_status mps__world_search_there(mps__world *w, bool *found)
     mps__twins *t = &w->host.twins;
     mps_neighbours *l = &w->lists.neighbours;
     *found = false;
-    if (!device_finds(w)) return MPS_OK;
+    if (!device_searches(w)) return MPS_OK;
     MPS__TRY(mps__neighbours_begin(l, w->particles.n, w->particles.x, w->setup.re_near,
                                    w->setup.re_far));
     mps__twins_rows_drop(t);
@@ -214,6 +220,7 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
         MPS__TRY(mps__world_fetch(w));
     if (!there && l->valid) MPS__TRY(mps__world_fetch_searched(w));
     *fresh = mps__neighbours_fresh(l, s->n, mps__seen(w, s->x), mps__seen(w, l->searched),
+                                   mps__ghosts_seen(&w->ghosts, mps__device_of(&w->pool.parallel)),
                                    w->setup.re_far);
     return there ? mps__twins_leave(&w->host.twins) : MPS_OK;
 }

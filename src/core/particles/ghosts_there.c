@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Ghosts at a device: which rows they are, and values of arrays there that go to other ranks and come from them. Only these travel to the host. */
+#include "ghosts.h"
+#include "loop.h"
+#include <string.h>
+
+void mps__ghosts_leave(mps__ghosts *g)
+{
+    mps__device_block *all[] = {&g->there.ghost, &g->there.send, &g->there.receive,
+                                &g->there.packets};
+    for (size_t k = 0; g->there.device && k < sizeof all / sizeof all[0]; k++)
+        mps__device_leave(g->there.device, all[k]);
+    g->there = (mps__ghosts_there){.orders = -1};
+}
+
+static bool put(mps__device *d, mps__device_block *room, const void *from, int64_t count,
+                size_t size)
+{
+    if (!mps__device_fit(d, room, (size_t)count * size)) return false;
+    mps__device_upload(d, room->data, from, (size_t)count * size);
+    return true;
+}
+
+/* Which rows are ghosts, and places of packets, as they are since the last order. */
+static mps_status show(mps__ghosts *g, mps__device *d)
+{
+    mps__ghosts_there *t = &g->there;
+    if (t->device == d && t->orders == g->orders) return MPS_OK;
+    t->device = d;
+    t->orders = -1;
+    if (!put(d, &t->ghost, g->ghost, g->particles->n, sizeof *g->ghost) ||
+        !put(d, &t->send, g->send, g->sends, sizeof *g->send) ||
+        !put(d, &t->receive, g->receive, g->receives, sizeof *g->receive))
+        return MPS_E_NOMEM;
+    t->orders = g->orders;
+    return MPS_OK;
+}
+
+const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d)
+{
+    if (!g->ghost || !d) return g->ghost;
+    return show(g, d) == MPS_OK ? g->there.ghost.data : NULL;
+}
+
+typedef struct packets {
+    const int32_t *particle; /* of each packet */
+    const char *from;
+    char *values;
+    size_t bytes; /* of a packet */
+} packets;
+
+MPS_ROW void unpack_row(const int dim, const packets *f, int64_t k)
+{
+    (void)dim;
+    memcpy(f->values + (size_t)f->particle[k] * f->bytes, f->from + (size_t)k * f->bytes, f->bytes);
+}
+MPS__LOOP_ANY(unpack_rows, unpack_row, packets)
+
+/* Bytes of a packet of the arrays there, before array `end`. */
+static size_t bytes_there(const mps__shared *shared, int32_t end)
+{
+    size_t bytes = 0;
+    for (int32_t a = 0; a < end; a++) bytes += shared[a].there ? shared[a].bytes : 0;
+    return bytes;
+}
+
+static mps_status reserve(mps__ghosts *g, mps__device *d, size_t bytes)
+{
+    const int64_t most = g->sends > g->receives ? g->sends : g->receives;
+    MPS__TRY(show(g, d));
+    if (!mps__device_fit(d, &g->there.packets, (size_t)most * bytes)) return MPS_E_NOMEM;
+    return mps__grow(g->context, (void **)&g->staged, &g->staged_capacity, 0, most * (int64_t)bytes,
+                     1);
+}
+
+/* Array a of a list has its packets behind those of the arrays before it. */
+mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                             int32_t count)
+{
+    const size_t bytes = bytes_there(shared, count);
+    MPS__TRY(reserve(g, d, bytes));
+    for (int32_t a = 0; a < count; a++)
+        if (shared[a].there)
+            mps__particles_gather(&d->parallel,
+                                  (char *)g->there.packets.data +
+                                      (size_t)g->sends * bytes_there(shared, a),
+                                  shared[a].values, g->sends, g->there.send.data, shared[a].bytes);
+    mps__device_download(d, g->staged, g->there.packets.data, (size_t)g->sends * bytes);
+    return mps__device_status(d);
+}
+
+mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+                             int32_t count)
+{
+    const char *const from = g->there.packets.data;
+    mps__device_upload(d, g->there.packets.data, g->staged,
+                       (size_t)g->receives * bytes_there(shared, count));
+    for (int32_t a = 0; a < count; a++)
+        if (shared[a].there)
+            mps__loop_run(&d->parallel, &unpack_rows, MPS__ANY_DIM, g->receives,
+                          &(packets){g->there.receive.data,
+                                     from + (size_t)g->receives * bytes_there(shared, a),
+                                     shared[a].values, shared[a].bytes});
+    return mps__device_status(d);
+}
