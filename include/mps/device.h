@@ -152,9 +152,13 @@ typedef struct mps_device_info {
  *  call returns MPS_E_PLUGIN and may be repeated. If it fails in a step for good, fields that it
  *  had alone are lost: steps and all that needs fields return MPS_E_PLUGIN with the time of the
  *  state, this function too, until mps_checkpoint_read() or mps_snapshot_restore() brings another.
- *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_BUSY (a lease is open),
- *  MPS_E_STATE (the handle has more than one rank: not supported), MPS_E_NOMEM, MPS_E_PLUGIN (the
- *  device does not open, or the one before does not give the fields); the handle is as before */
+ *
+ *  On many ranks a call of all ranks together: each has a device of its own, or none has one.
+ *  Where one fails all fail, and all run on the host then. The pressure equation is solved on the
+ *  hosts, and a search of neighbours is done there.
+ *  @return MPS_E_ARG (which entry, and what is allowed; some ranks have a device, others none),
+ *  MPS_E_BUSY (a lease is open), MPS_E_NOMEM, MPS_E_PLUGIN (the device does not open, or the one
+ *  before does not give the fields), MPS_E_RANKS; alone the handle is as before */
 MPS_API mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops);
 
 /** Set struct_size and zero. @param size  sizeof(mps_device_info) @return MPS_E_ARG: bad size */

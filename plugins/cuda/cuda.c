@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public functions of libmps_cuda. */
 #include "handle.h"
+#include <mps/ranks.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,11 +12,24 @@ static const char *failure(void *self)
     return c->text.line[0] ? c->text.line : NULL;
 }
 
+/* Ranks of a machine follow each other where mpirun fills one machine after the other. */
+static int number_of(const mps_sim *sim, int32_t number)
+{
+    mps_cuda_info info = {.struct_size = sizeof info};
+    int32_t rank = 0;
+    if (number != MPS_CUDA_OF_RANK) return number;
+    mps_sim_ranks(sim, &rank, NULL);
+    return mps_cuda_info_get(0, &info, NULL, 0) == MPS_OK ? rank % info.count : 0;
+}
+
 mps_status mps_cuda_use(mps_sim *sim, int32_t number)
 {
     cuda *c = calloc(1, sizeof *c);
+    int32_t ranks = 1;
+    mps_sim_ranks(sim, NULL, &ranks);
+    if (!c && ranks > 1) mps_sim_device_set(sim, NULL); /* the others wait for this one */
     if (!c) return MPS_E_NOMEM;
-    c->number = number;
+    c->number = number_of(sim, number);
     c->ops = (mps_device_ops){.struct_size = sizeof c->ops,
                               .api = MPS_DEVICE_API,
                               .name = "cuda",

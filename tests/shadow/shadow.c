@@ -17,11 +17,14 @@
 enum { HEAP_CLASSES = 48 };
 static const size_t HEAP = (size_t)1 << 32;
 
-static struct {
+typedef struct shadow_memory {
     char *begin;
     size_t used;
     void *is_free[HEAP_CLASSES]; /* by the power of two that is their size */
-} heap;
+} shadow_memory;
+
+/* The first one is for all handles of a thread alone, the others for one rank each. */
+static shadow_memory memories[1 + SHADOW_RANKS];
 
 /* In front of a block. */
 typedef struct heap_block {
@@ -29,23 +32,23 @@ typedef struct heap_block {
     void *next;
 } heap_block;
 
-static void heap_protect(int access)
+static void heap_protect(const shadow_memory *heap, int access)
 {
-    if (heap.begin) mprotect(heap.begin, (heap.used + 4095) & ~(size_t)4095, access);
+    if (heap && heap->begin) mprotect(heap->begin, (heap->used + 4095) & ~(size_t)4095, access);
 }
 
 static void *heap_alloc(void *user, size_t size)
 {
+    shadow_memory *heap = user;
     size_t power = 5;
-    (void)user;
     while ((size_t)1 << power < size + sizeof(heap_block)) power++;
-    heap_block *b = heap.is_free[power];
+    heap_block *b = heap->is_free[power];
     if (b) {
-        heap.is_free[power] = b->next;
+        heap->is_free[power] = b->next;
     } else {
-        assert_true(heap.used + ((size_t)1 << power) <= HEAP);
-        b = (heap_block *)(void *)(heap.begin + heap.used);
-        heap.used += (size_t)1 << power;
+        assert_true(heap->used + ((size_t)1 << power) <= HEAP);
+        b = (heap_block *)(void *)(heap->begin + heap->used);
+        heap->used += (size_t)1 << power;
     }
     b->power = power;
     return b + 1;
@@ -53,23 +56,35 @@ static void *heap_alloc(void *user, size_t size)
 
 static void heap_release(void *user, void *block)
 {
+    shadow_memory *heap = user;
     heap_block *b = (heap_block *)block - 1;
-    (void)user;
-    if ((char *)block < heap.begin || (char *)block >= heap.begin + HEAP) {
+    if ((char *)block < heap->begin || (char *)block >= heap->begin + HEAP) {
         free(block); /* of before the handle was given this memory */
         return;
     }
-    b->next = heap.is_free[b->power];
-    heap.is_free[b->power] = b;
+    b->next = heap->is_free[b->power];
+    heap->is_free[b->power] = b;
+}
+
+static void take_heap(mps_sim *sim, shadow_memory *heap)
+{
+    if (!heap->begin)
+        heap->begin = mmap(NULL, HEAP, PROT_READ | PROT_WRITE,
+                           MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    assert_true(heap->begin != MAP_FAILED);
+    sim->context.allocator = (mps_allocator){
+        .alloc = heap_alloc, .release = heap_release, .user = heap};
 }
 
 void shadow_heap(mps_sim *sim)
 {
-    if (!heap.begin)
-        heap.begin = mmap(NULL, HEAP, PROT_READ | PROT_WRITE,
-                          MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
-    assert_true(heap.begin != MAP_FAILED);
-    sim->context.allocator = (mps_allocator){.alloc = heap_alloc, .release = heap_release};
+    take_heap(sim, &memories[0]);
+}
+
+void shadow_heap_of(mps_sim *sim, int32_t rank)
+{
+    assert_true(rank >= 0 && rank < SHADOW_RANKS);
+    take_heap(sim, &memories[1 + rank]);
 }
 
 /* ---- memory of the device ---- */
@@ -272,9 +287,9 @@ static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
     s->launches++;
     open_all(s, true);
     const bool closed = closes(s, l);
-    if (closed) heap_protect(PROT_NONE);
+    if (closed) heap_protect(s->heap, PROT_NONE);
     l->run(l->host, 0, l->n, sum, maximum);
-    if (closed) heap_protect(PROT_READ | PROT_WRITE);
+    if (closed) heap_protect(s->heap, PROT_READ | PROT_WRITE);
     open_all(s, !closed);
 }
 
@@ -348,6 +363,7 @@ void shadow_attach(shadow *s, mps_sim *sim)
                           .wait = wait_for,
                           .failure = failure,
                           .outdated = outdated}};
+    if (sim->context.allocator.alloc == heap_alloc) s->heap = sim->context.allocator.user;
     assert_int_equal(mps_sim_device_set(sim, &s->ops), MPS_OK);
 }
 

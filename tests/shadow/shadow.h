@@ -6,7 +6,7 @@
 #include "sim.h"
 #include <mps/device.h>
 
-enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 6 };
+enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 6, SHADOW_RANKS = 4 };
 
 typedef struct shadow {
     mps_device_ops ops;
@@ -19,6 +19,7 @@ typedef struct shadow {
     int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
     int64_t dies_at;                      /* launch from which on all does */
     char *arena, *arena_end;              /* memory of all rooms; NULL: there are none */
+    struct shadow_memory *heap;           /* of the handle; NULL: it is never closed */
     bool open;                            /* it is not closed: the loop before has run often */
     int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
     struct {
@@ -29,6 +30,8 @@ typedef struct shadow {
 
 /* A handle that was just made takes its arrays from memory that is closed while loops run on a shadow. */
 void shadow_heap(mps_sim *sim);
+/* The same for a rank that is a thread of its own: one handle at a time. */
+void shadow_heap_of(mps_sim *sim, int32_t rank);
 /* Steps of a simulation run on the shadow from now on; it must live longer. */
 void shadow_attach(shadow *s, mps_sim *sim);
 /* Launches of a loop. */

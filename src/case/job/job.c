@@ -154,8 +154,6 @@ static const char *check(const mps_job_config *c)
         return "ranks must be filled in by mps_job_ranks_load()";
     if (c->device && !mps__job_device_known(c->device))
         return "device must be cuda, or cuda:N with the number N of a GPU";
-    if (c->device && c->ranks && c->ranks->count > 1)
-        return "--device and --mpi exclude each other: a device is for one rank";
     if (c->resume && c->overwrite) return "--resume and --overwrite exclude each other";
     return NULL;
 }

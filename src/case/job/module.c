@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Libraries that are loaded when a run asks for them, so that programs run where they are not. */
 #include "run.h"
+#include <mps/device.h>
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -22,19 +23,20 @@ void *mps__job_module(const char *name)
 
 /* ---- devices ---- */
 
-/* The number of "cuda", "cuda:2". @return -1: it is neither */
+/* The number of "cuda:2"; of "cuda" that of MPS_CUDA_OF_RANK. @return UNKNOWN: it is neither */
+enum { OF_RANK = -1, UNKNOWN = -2 };
 static int number_of(const char *device)
 {
     char *end;
-    if (strcmp(device, "cuda") == 0) return 0;
-    if (strncmp(device, "cuda:", 5) != 0 || device[5] < '0' || device[5] > '9') return -1;
+    if (strcmp(device, "cuda") == 0) return OF_RANK;
+    if (strncmp(device, "cuda:", 5) != 0 || device[5] < '0' || device[5] > '9') return UNKNOWN;
     const long number = strtol(device + 5, &end, 10);
-    return *end || number > 1023 ? -1 : (int)number;
+    return *end || number > 1023 ? UNKNOWN : (int)number;
 }
 
 bool mps__job_device_known(const char *device)
 {
-    return number_of(device) >= 0;
+    return number_of(device) != UNKNOWN;
 }
 
 bool mps__job_device(mps_job *job)
@@ -45,6 +47,8 @@ bool mps__job_device(mps_job *job)
     if (!device) return true;
     void *module = mps__job_module("libmps_cuda.so.1"),
          *symbol = module ? dlsym(module, "mps_cuda_use") : NULL;
+    if (!symbol && mps__job_ranks(job) > 1) /* others may have it, and wait for this rank */
+        mps_sim_device_set(job->sim, NULL);
     if (!symbol)
         return mps__job_fail(job, MPS_EXIT_USAGE,
                              "device '%s': %s; it is built where clang and LLVM are: cmake "

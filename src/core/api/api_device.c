@@ -31,7 +31,9 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
     mps__ppe_leave(&w->ppe, &w->host.twins.device);
     mps__ghosts_leave(&w->ghosts);
-    return mps__ranks_tell(&w->ranks, mps__twins_attach(&w->host.twins, ops));
+    const mps_status status = mps__ranks_agree(&w->ranks, mps__twins_attach(&w->host.twins, ops));
+    if (status < 0 && mps__ranks_many(&w->ranks)) mps__twins_attach(&w->host.twins, NULL);
+    return status;
 }
 
 mps_status mps_device_info_init(mps_device_info *info, size_t size)

@@ -12,8 +12,8 @@ mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops)
                          w->ranks.ops.name);
     if (w->host.twins.device.ops.name)
         return mps__fail(&sim->context, MPS_E_STATE,
-                         "the handle runs on device '%s', which is for one rank: take it off by "
-                         "mps_sim_device_set() first",
+                         "the handle runs on device '%s': call mps_sim_ranks_set() before "
+                         "mps_sim_device_set()",
                          w->host.twins.device.ops.name);
     if (w->particles.n > 0 || w->state.step > 0 || sim->solids > 0 || sim->probes.count > 0)
         return mps__fail(&sim->context, MPS_E_STATE,

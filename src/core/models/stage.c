@@ -22,8 +22,9 @@ typedef struct job {
     const mps_rows *rows;
     const mps_sums *sums;
     const void *fields;
-    int32_t count; /* sums or maxima */
-    bool raises;   /* maxima */
+    int32_t count;       /* sums or maxima */
+    bool raises;         /* maxima */
+    const uint8_t *skip; /* of a launch */
 } job;
 
 static void own_rows(void *argument, int64_t begin, int64_t end)
@@ -101,16 +102,26 @@ static void run_maxima(void *argument, int64_t begin, int64_t end, double *value
 
 /* ---- on a device ---- */
 
+/* The rows of a launch that are not left out. */
+static void launch_rows(const job *k, mps_range_fn rows, void *argument, int64_t begin, int64_t end)
+{
+    for (int64_t i = begin; i < end;) {
+        while (k->skip && i < end && k->skip[i]) i++;
+        const int64_t from = i;
+        while (i < end && !(k->skip && k->skip[i])) i++;
+        if (from < i) rows(argument, from, i);
+    }
+}
+
 static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *sums,
                        double *maxima)
 {
     const job *k = host;
+    part own = {.k = k, .sums = sums, .maxima = maxima};
     if (k->rows)
-        run_rows((void *)k, begin, end);
-    else if (k->raises)
-        run_maxima((void *)k, begin, end, maxima);
+        launch_rows(k, own_rows, (void *)k, begin, end);
     else
-        run_sums((void *)k, begin, end, sums, NULL);
+        launch_rows(k, k->raises ? raise_rows : sum_rows, &own, begin, end);
 }
 
 /* Rows that a loop leaves out: of particles of other ranks. */
@@ -135,6 +146,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     mps__twins_loop_view((mps__twins *)&h->twins,
                          h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
     k.v = &v;
+    k.skip = skip_of(&k, d);
     mps_launch l = {.dim = v.dim,
                     .n = v.n,
                     .file = file_of(&k),
@@ -146,7 +158,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
                     .maxima = k.raises ? k.count : 0,
                     .run = run_launch,
                     .host = &k,
-                    .skip = skip_of(&k, d)};
+                    .skip = k.skip};
     if (to)
         mps__device_gather(d, &l, to);
     else

@@ -24,9 +24,13 @@
 
 MPS_BEGIN_DECLS
 
+/** For mps_cuda_use(): GPU r modulo their number on rank r, so GPU 0 without ranks. It fits where
+ *  each machine has as many ranks as GPUs, one after the other. */
+#define MPS_CUDA_OF_RANK (-1)
+
 /** Run the steps of a handle on a GPU from now on, as mps_sim_device_set() does;
- *  mps_sim_device_set(sim, NULL) brings them back to the host.
- *  @param number  of the GPU, from 0 on, as the driver counts them
+ *  mps_sim_device_set(sim, NULL) brings them back to the host. On many ranks a call of all ranks.
+ *  @param number  of the GPU, from 0 on, as the driver counts them; or MPS_CUDA_OF_RANK
  *  @return MPS_E_PLUGIN (no driver, no such GPU, too old, no memory; text in mps_sim_error()), and
  *          as mps_sim_device_set() */
 MPS_API mps_status mps_cuda_use(mps_sim *sim, int32_t number);
