@@ -4,6 +4,7 @@
 #include "checkpoint_fixture.h"
 #include "launch.h"
 #include "loops.h"
+#include "ranks.h"
 #include "search_fixture.h"
 #include "solutions.h"
 
@@ -316,14 +317,39 @@ static void a_difference_is_found(void **state)
     ops->give(ops->self, fields.to);
 }
 
+/* Kernels leave out particles of other ranks, as the host's text does. */
+static void two_ranks(void **state)
+{
+    opencl *other = calloc(1, sizeof *other);
+    (void)state;
+    assert_non_null(other);
+    assert_true(opencl_open(other, MPS_DEVICE_FOLDER "/rows.bc"));
+    ranks_run k = {.device = {&device, other}};
+    ranks_go(&k);
+    for (int r = 0; r < 2; r++) {
+        assert_int_equal(k.status[r], MPS_OK);
+        assert_true(k.launches[r] > 100);
+        if (k.device[r]->failure[0]) fail_msg("rank %d: %s", r, k.device[r]->failure);
+        if (k.device[r]->difference[0]) fail_msg("rank %d: %s", r, k.device[r]->difference);
+    }
+    opencl_close(other);
+    free(other);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),     cmocka_unit_test(scans_of_any_size),
-        cmocka_unit_test(searches_of_any_size), cmocka_unit_test(presets),
-        cmocka_unit_test(several_grids),        cmocka_unit_test(solutions),
-        cmocka_unit_test(other_scenes),         cmocka_unit_test(all_models),
-        cmocka_unit_test(kernels_are_there),    cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),
+        cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(searches_of_any_size),
+        cmocka_unit_test(presets),
+        cmocka_unit_test(several_grids),
+        cmocka_unit_test(solutions),
+        cmocka_unit_test(other_scenes),
+        cmocka_unit_test(all_models),
+        cmocka_unit_test(two_ranks),
+        cmocka_unit_test(kernels_are_there),
+        cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);
