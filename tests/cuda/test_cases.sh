@@ -3,10 +3,11 @@
 # Each case gives the same bytes of probes.csv, frames and checkpoint on the host and on a GPU, and a checkpoint of one goes on on the other.
 # The GPU is the stand-in for the driver, which runs the kernels by OpenCL. 77: no OpenCL runs here. Cases have the first and the second half there
 # in turn; those that are named have both.
+# MPIRUN in the environment: two ranks with a GPU each have the bytes of a run alone too.
 # usage: test_cases.sh PROGRAM CASES FOLDER_OF_STANDIN FOLDER_OF_PLUGIN KERNELS [NAME ..]
 program=$1 cases=$2 standin=$3 plugin=$4 kernels=$5
 shift 5
-table=$(realpath "$(dirname "$0")/../case/short_runs")
+table=$(realpath "$(dirname "$0")/../case/short_runs") starter=$(realpath "$(dirname "$0")/../mpi/run")
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
@@ -55,5 +56,17 @@ while read -r name t; do
     tested "$name" "$cases/$name.yaml" "$t"
 done < "$table"
 [ $# -gt 0 ] || tested dam_break_3d "$cases/dam_break.yaml" 0.1 --set dim=3 --set "dp=50 mm"
-[ $failed -eq 0 ] && echo "$runs runs of two halves, one on the host, one on the GPU: the same bytes"
+ranks() {
+    local options=(-j 1 -q --set "run.until=0.3 s" --set "run.checkpoint=0.1 s" --set output.frames=2 --set "output.page=0 MB") case=$cases/sloshing_surge.yaml file
+    host run "$case" -o alone "${options[@]}" > log 2>&1 || fail "a run alone"
+    LD_LIBRARY_PATH=$standin:$plugin STANDIN_KERNELS=$kernels "$starter" "$MPIRUN" 2 "$program" run "$case" -o many "${options[@]}" --mpi --device cuda > log 2>&1
+    case $? in 0) ;; 77) return ;; *) fail "two ranks" ;; esac
+    grep -q '"device": "cuda"' many/summary.json || fail "two ranks: the summary does not tell the device"
+    for file in probes.csv momentum.csv checkpoint.mps frames; do
+        diff -rq "alone/$file" "many/$file" > log 2>&1 || fail "two ranks"
+    done
+    runs=$((runs + 1))
+}
+[ -z "${MPIRUN:-}" ] || [ $# -gt 0 ] || ranks
+[ $failed -eq 0 ] && echo "$runs runs, one half on the host, one on the GPU, or on two ranks: the same bytes"
 exit $failed

@@ -74,10 +74,15 @@ static void opening_fails(void **state)
         assert_int_equal(standin_open(), 0);
     }
     ASSERT_REFUSED(sim, mps_cuda_use(sim, 3), MPS_E_PLUGIN, "no GPU 3: must be 0..0");
-    ASSERT_REFUSED(sim, mps_cuda_use(sim, -1), MPS_E_PLUGIN, "no GPU -1");
+    ASSERT_REFUSED(sim, mps_cuda_use(sim, -2), MPS_E_PLUGIN, "no GPU -2");
     standin_facts(1, 52, 12040);
     ASSERT_REFUSED(sim, mps_cuda_use(sim, 0), MPS_E_PLUGIN, "5.2; must be 6.0");
+    standin_facts(3, 52, 12040);
+    sim->world.ranks.rank = 5;
+    ASSERT_REFUSED(sim, mps_cuda_use(sim, MPS_CUDA_OF_RANK), MPS_E_PLUGIN, "GPU 2 has");
+    sim->world.ranks.rank = 0;
     standin_facts(0, 90, 12040);
+    ASSERT_REFUSED(sim, mps_cuda_use(sim, MPS_CUDA_OF_RANK), MPS_E_PLUGIN, "no GPU of NVIDIA");
     ASSERT_REFUSED(sim, mps_cuda_use(sim, 0), MPS_E_PLUGIN, "no GPU of NVIDIA");
     standin_facts(1, 90, 12040);
     ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
