@@ -25,7 +25,7 @@ typedef struct kernel {
 static struct {
     const char *path, *failing;
     int64_t failing_at, visits;
-    int count, capability, version, open;
+    int count, capability, version, open, device;
     bool started;
     cl_context context;
     cl_command_queue queue;
@@ -61,6 +61,11 @@ void standin_facts(int count, int capability, int version)
     s.count = count;
     s.capability = capability;
     s.version = version;
+}
+
+int standin_device(void)
+{
+    return s.device;
 }
 
 int standin_open(void)

@@ -14,6 +14,8 @@ void standin_fail(const char *function, int64_t visit);
 int64_t standin_visits(const char *function);
 /* What the GPU says of itself from now on. */
 void standin_facts(int count, int capability, int version);
+/* Number of the GPU that was opened last. */
+int standin_device(void);
 /* Rooms, streams, contexts and modules that were not given back. */
 int standin_open(void);
 

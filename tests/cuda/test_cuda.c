@@ -77,9 +77,11 @@ static void opening_fails(void **state)
     ASSERT_REFUSED(sim, mps_cuda_use(sim, -2), MPS_E_PLUGIN, "no GPU -2");
     standin_facts(1, 52, 12040);
     ASSERT_REFUSED(sim, mps_cuda_use(sim, 0), MPS_E_PLUGIN, "5.2; must be 6.0");
-    standin_facts(3, 52, 12040);
+    standin_facts(3, 90, 12040);
     sim->world.ranks.rank = 5;
-    ASSERT_REFUSED(sim, mps_cuda_use(sim, MPS_CUDA_OF_RANK), MPS_E_PLUGIN, "GPU 2 has");
+    ASSERT_OK(sim, mps_cuda_use(sim, MPS_CUDA_OF_RANK));
+    assert_int_equal(standin_device(), 2);
+    ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
     sim->world.ranks.rank = 0;
     standin_facts(0, 90, 12040);
     ASSERT_REFUSED(sim, mps_cuda_use(sim, MPS_CUDA_OF_RANK), MPS_E_PLUGIN, "no GPU of NVIDIA");
