@@ -12,14 +12,16 @@ static const char *failure(void *self)
     return c->text.line[0] ? c->text.line : NULL;
 }
 
-/* Ranks of a machine follow each other where mpirun fills one machine after the other. */
+/* The number of a GPU, where it is that of a rank: as the ranks of a machine follow each other. What is wrong is told where the GPU opens. */
 static int number_of(const mps_sim *sim, int32_t number)
 {
-    mps_cuda_info info = {.struct_size = sizeof info};
+    cuda_text text = {""};
     int32_t rank = 0;
+    int count = 0;
     if (number != MPS_CUDA_OF_RANK) return number;
     mps_sim_ranks(sim, &rank, NULL);
-    return mps_cuda_info_get(0, &info, NULL, 0) == MPS_OK ? rank % info.count : 0;
+    const cuda_driver *d = cuda_driver_open(&text);
+    return d && d->count(&count) == 0 && count > 0 ? rank % count : 0;
 }
 
 mps_status mps_cuda_use(mps_sim *sim, int32_t number)

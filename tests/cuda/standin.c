@@ -170,7 +170,7 @@ static int depth; /* contexts that were pushed */
 int cuDevicePrimaryCtxRetain(cuda_handle *context, int device)
 {
     MAY_FAIL(NO_MEMORY);
-    (void)device;
+    s.device = device - 100;
     *context = (cuda_handle)&s;
     s.open++;
     return 0;
