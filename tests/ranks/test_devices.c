@@ -102,8 +102,13 @@ typedef struct refusal {
     kit_engine_team *team;
     shadow device[2];
     mps_status status[2][3];
-    char error[2][2][TEXT];
+    char error[2][2][TEXT], told[2][TEXT];
 } refusal;
+
+static void note(void *told, int32_t level, const char *text)
+{
+    if (level == MPS_LOG_INFO) snprintf(told, TEXT, "%s", text);
+}
 
 static int does_not_open(void *self)
 {
@@ -127,6 +132,8 @@ static void refuse(void *argument, int32_t rank)
     snprintf(k->error[rank][1], TEXT, "%s", mps_sim_error(sim));
     assert_null(shadow_counts(sim).name); /* both are on the host */
     shadow_attach(&k->device[rank], sim);
+    sim->context.log = note;
+    sim->context.log_user = k->told[rank];
     assert_int_equal(mps_step(sim, 1, NULL), MPS_OK);
     k->device[rank].fails_at = rank == 0 ? k->device[rank].launches + 40 : 0;
     k->status[rank][2] = mps_step(sim, 1, NULL);
@@ -148,6 +155,8 @@ static void devices_of_all_or_none(void **state)
         assert_non_null(strstr(k->error[r][1], "does not open"));
         assert_int_equal(k->status[r][2], r == 0 ? MPS_E_PLUGIN : MPS_E_RANKS);
         assert_int_equal(k->device[r].rooms, 0);
+        assert_non_null(strstr(k->told[r], "solved on the host"));
+        assert_non_null(strstr(k->told[r], "there are 2 ranks"));
     }
     free(k);
 }

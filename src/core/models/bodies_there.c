@@ -82,7 +82,7 @@ MPS_ROW bool at_border(const mps_view *v, const joining *f, int64_t i)
     const mps_stencil *t = &v->near;
     for (int64_t p = mps_stencil_begin(t, i); f->ghost && p < mps_stencil_end(t, i); p++) {
         const int32_t j = mps_stencil_column(t, p);
-        if (f->ghost[j] && mps__body_has(v, f->role, j)) return true;
+        if (!mps__owns(f->ghost, j) && mps__body_has(v, f->role, j)) return true;
     }
     return false;
 }

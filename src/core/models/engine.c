@@ -99,6 +99,7 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
                       .particles = s,
                       .parallel = parallel,
                       .told = -1,
+                      .told_solution = -1,
                       .changes = -1,
                       .listed = -1};
     mps__device_init(&t->device, c->context);

@@ -65,6 +65,7 @@ typedef struct mps__twins {
     mps__twin constants;             /* settings of models, viscosities, tensions, */
     double *constant;                /* as they were copied last */
     int64_t told;                    /* mps__models.changes when the log was told; -1: never */
+    int64_t told_solution;           /* the same of the pressure equation */
 } mps__twins;
 
 void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel);

@@ -16,11 +16,16 @@ static bool is_auxgrid(const mps_preconditioner_ops *pc)
     return pc->create == mps__preconditioner_auxgrid.create;
 }
 
+bool mps__solvers_known_there(const mps__solvers *s)
+{
+    return s->use->create == mps__solver_pcg.create &&
+           (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
+}
+
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
 {
-    const bool known = s->use->create == mps__solver_pcg.create &&
-                       (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
-    return s->device && known && !e->ranks && !e->component && !e->law && e->n > 0;
+    return s->device && mps__solvers_known_there(s) && !e->ranks && !e->component && !e->law &&
+           e->n > 0;
 }
 
 /* @param there  out: the equation with the arrays there @param q  out: the pressures there */

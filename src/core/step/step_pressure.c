@@ -4,6 +4,7 @@
 #include "levels.h"
 #include "loop.h"
 #include <mps/couple.h>
+#include <stdio.h>
 
 /* Share of its way to that of the present step that the spread of pressures goes in a step. */
 static const double SPREAD_SHARE = 0.2;
@@ -261,9 +262,33 @@ static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
     return solve_here(s);
 }
 
+/* Once, where it will be so in each step. */
+static void tell_apart(const mps__step *q)
+{
+    mps__world *w = q->w;
+    mps__twins *t = &w->host.twins;
+    const mps__solvers *s = &w->solvers;
+    char why[2 * MPS__NAME_SIZE + 40] = "";
+    if (t->told_solution == w->host.plan.changes) return;
+    if (mps__ranks_many(&w->ranks))
+        snprintf(why, sizeof why, "there are %d ranks", (int)w->ranks.count);
+    else if (q->load.what == MPS_LOAD_MASS)
+        snprintf(why, sizeof why, "the added mass is asked for");
+    else if (!mps__solvers_known_there(s))
+        snprintf(why, sizeof why, "solver '%s' with preconditioner '%s'", s->use->name,
+                 s->pc ? s->pc->name : "none");
+    if (!why[0]) return;
+    t->told_solution = w->host.plan.changes;
+    mps__log(w->context, MPS_LOG_INFO,
+             "device '%s': the pressure equation is solved on the host, with copies of its matrix: "
+             "%s",
+             t->device.ops.name, why);
+}
+
 /* The host solves what was assembled there. */
 static mps_status solve_apart(mps_stage *s)
 {
+    tell_apart(mps__step_of(s));
     mps__ppe *e = &mps__step_of(s)->w->ppe;
     if (e->device) MPS__TRY(mps__levels_wait(e));
     if (e->device && e->lacking) MPS__TRY(close_levels(s));
