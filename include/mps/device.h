@@ -154,8 +154,9 @@ typedef struct mps_device_info {
  *  state, this function too, until mps_checkpoint_read() or mps_snapshot_restore() brings another.
  *
  *  On many ranks a call of all ranks together: each has a device of its own, or none has one.
- *  Where one fails all fail, and all run on the host then. The pressure equation is solved on the
- *  hosts, and a search of neighbours is done there.
+ *  Where one fails all fail, and all run on the host then. A search of neighbours is done on the
+ *  hosts, and so is the solution of the pressure equation but by `sundials.pcg` with `jacobi` or
+ *  `none`.
  *  @return MPS_E_ARG (which entry, and what is allowed; some ranks have a device, others none),
  *  MPS_E_BUSY (a lease is open), MPS_E_NOMEM, MPS_E_PLUGIN (the device does not open, or the one
  *  before does not give the fields), MPS_E_RANKS; alone the handle is as before */

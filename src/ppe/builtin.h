@@ -21,8 +21,8 @@ extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
-/* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation of one rank whose components are not singular:
- * arrays of the problem and p are there, and so is its parallel-for. */
+/* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation whose components are not singular: arrays of the
+ * problem and p are there, and so is its parallel-for. On many ranks not with auxgrid. */
 
 /* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
 typedef struct mps__pcg_hint {

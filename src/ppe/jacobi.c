@@ -89,8 +89,8 @@ static int setup(void *self, const mps_ppe_problem *problem)
     j->parallel = problem->parallel;
     double found[VALUES] = {0};
     const operands rows = {.x = problem->diagonal, .z = j->inverse};
-    /* a solver there does not begin with what is looked for below */
-    if (mps__device_of(problem->parallel)) {
+    /* a solver whose sums stay there does not begin with what is looked for below */
+    if (mps__device_of(problem->parallel) && !problem->ranks) {
         mps__loop_run(problem->parallel, &invert_rows_there, MPS__ANY_DIM, problem->n, &rows);
         return 0;
     }

@@ -83,14 +83,14 @@ static void drop_arrays(krylov *k)
     k->space.capacity = 0;
 }
 
-/* Whether a problem is solved by conjugate gradients of a device. */
-static bool on_device(const krylov *k)
+/* Whether a problem is solved by conjugate gradients whose sums stay on a device. Those of many ranks come and are joined. */
+static bool stays_there(const krylov *k, const mps_ppe_problem *problem)
 {
-    return k->kind->symmetric && mps__device_of(k->space.parallel);
+    return k->kind->symmetric && mps__device_of(problem->parallel) && !problem->ranks;
 }
 
 /* Arrays of this length, here and in all vectors. */
-static bool make_arrays(krylov *k, int64_t capacity)
+static bool make_arrays(krylov *k, int64_t capacity, bool stays)
 {
     const mps_allocator *a = &k->space.arrays;
     drop_arrays(k);
@@ -102,7 +102,7 @@ static bool make_arrays(krylov *k, int64_t capacity)
     mps__vector_point(k->b, k->residual);
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
-    if (on_device(k) && !(k->room = mps__take(a, 1, mps__cg_bytes()))) return false;
+    if (stays && !(k->room = mps__take(a, 1, mps__cg_bytes()))) return false;
     return mps__space_grow(&k->space, capacity);
 }
 
@@ -165,7 +165,8 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     if (problem->component && !make_sums(k, problem->components)) return false;
     const int64_t columns = mps__columns(problem);
     k->space.problem = problem;
-    return (k->start && columns <= k->space.capacity) || make_arrays(k, columns + columns / 32 + 1);
+    return (k->start && columns <= k->space.capacity) ||
+           make_arrays(k, columns + columns / 32 + 1, stays_there(k, problem));
 }
 
 /* ---- solution ---- */
@@ -293,7 +294,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 {
     krylov *k = self;
     mps__result_begin(result);
-    if (!mps__device_of(problem->parallel)) mps__guess_clean(problem, p);
+    if (!stays_there(k, problem)) mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;

@@ -243,8 +243,7 @@ static void note(void *user, int level, const char *text)
 {
     char *told = user;
     (void)level;
-    if (strstr(text, "on the host"))
-        snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
+    if (strstr(text, "on the host")) snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
 }
 
 /* Of an iteration of conjugate gradients with auxgrid of one grid: the product, three loops over vectors, three that decide and five of the

@@ -454,19 +454,21 @@ mps_status mps__ghosts_share_at(mps__ghosts *g, mps__device *d, const mps__share
     return there ? mps__ghosts_bring(g, d, shared, count) : MPS_OK;
 }
 
-mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x)
+mps_status mps__ghosts_share_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     double *x)
 {
     MPS__TRY(reserve_buffers(g, sizeof *x));
     double *out = (double *)(void *)g->out, *in = (double *)(void *)g->in;
-    for (int64_t k = 0; k < g->sends; k++) {
+    if (d) MPS__TRY(mps__ghosts_fetch_indexed(g, d, index, x, out));
+    for (int64_t k = 0; !d && k < g->sends; k++) {
         const int32_t at = index[g->send[k]];
         out[k] = at >= 0 ? x[at] : 0;
     }
     mps__ranks_exchange(g->ranks, &g->route, sizeof *x, out, in);
     MPS__TRY(mps__ranks_status(g->ranks));
-    for (int64_t k = 0; k < g->receives; k++) {
+    for (int64_t k = 0; !d && k < g->receives; k++) {
         const int32_t at = index[g->receive[k]];
         if (at >= 0) x[at] = in[k];
     }
-    return MPS_OK;
+    return d ? mps__ghosts_bring_indexed(g, d, index, x, in) : MPS_OK;
 }

@@ -108,8 +108,10 @@ static inline mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *sh
 {
     return mps__ghosts_share_at(g, NULL, shared, count);
 }
-/* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. */
-mps_status mps__ghosts_share_indexed(mps__ghosts *g, const int32_t *index, double *x);
+/* The same of numbers that some particles have: particle i has x[index[i]], none where index[i] < 0. `d`: the device that has both arrays; NULL: the
+ * host has them. */
+mps_status mps__ghosts_share_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     double *x);
 
 /* `ghost` for row functions at a device, NULL: the host; NULL too where this rank has none. What a failed device returns is not read. ghosts_there.c */
 const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d);
@@ -120,6 +122,11 @@ mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__shared *
                              int32_t count);
 mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *shared,
                              int32_t count);
+/* The same of numbers that some particles have, into `out` [sends] and from `in` [receives]. */
+mps_status mps__ghosts_fetch_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     const double *x, double *out);
+mps_status mps__ghosts_bring_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     double *x, const double *in);
 
 /* Bytes of all fields of a particle; these fields one behind the other, and back. */
 size_t mps__ghosts_packet(const mps__particles *s);

@@ -103,3 +103,46 @@ mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *
                                      shared[a].values, shared[a].bytes});
     return mps__device_status(d);
 }
+
+/* ---- numbers that some particles have ---- */
+
+typedef struct indexed {
+    const int32_t *particle, *index;
+    const double *from;
+    double *to;
+} indexed;
+
+MPS_ROW void take_row(const int dim, const indexed *f, int64_t k)
+{
+    const int32_t at = f->index[f->particle[k]];
+    (void)dim;
+    f->to[k] = at >= 0 ? f->from[at] : 0;
+}
+MPS__LOOP_ANY(take_rows, take_row, indexed)
+
+MPS_ROW void put_row(const int dim, const indexed *f, int64_t k)
+{
+    const int32_t at = f->index[f->particle[k]];
+    (void)dim;
+    if (at >= 0) f->to[at] = f->from[k];
+}
+MPS__LOOP_ANY(put_rows, put_row, indexed)
+
+mps_status mps__ghosts_fetch_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     const double *x, double *out)
+{
+    MPS__TRY(reserve(g, d, sizeof *x));
+    mps__loop_run(&d->parallel, &take_rows, MPS__ANY_DIM, g->sends,
+                  &(indexed){g->there.send.data, index, x, g->there.packets.data});
+    mps__device_download(d, out, g->there.packets.data, (size_t)g->sends * sizeof *x);
+    return mps__device_status(d);
+}
+
+mps_status mps__ghosts_bring_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                     double *x, const double *in)
+{
+    mps__device_upload(d, g->there.packets.data, in, (size_t)g->receives * sizeof *x);
+    mps__loop_run(&d->parallel, &put_rows, MPS__ANY_DIM, g->receives,
+                  &(indexed){g->there.receive.data, index, g->there.packets.data, x});
+    return mps__device_status(d);
+}

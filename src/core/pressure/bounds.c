@@ -157,7 +157,7 @@ static bool on_any_rank(const mps__ppe *e, bool here)
 static bool choose(mps__bounds *b, const mps__ppe *e, double seen)
 {
     bool changed = false;
-    if (e->device) return b->any && mps__bounds_choose_there(b, e, seen);
+    if (e->device) return b->any && on_any_rank(e, mps__bounds_choose_there(b, e, seen));
     for (int64_t k = 0; k < b->count; k++) {
         struct mps__bound *row = &b->list[k];
         const bool held = row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
@@ -176,7 +176,7 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
         .owner = b, .seen = NAN, .doubt = e->device ? &e->counts_there->lacking : NULL};
     if (b->any && e->device) solvers->hint.look = mps__bounds_look_there;
     if (b->any && e->device)
-        mps__bounds_pin_there(b, e);
+        status = mps__bounds_pin_there(b, e);
     else if (b->any)
         status = pin_rows(b, e);
     if (status == MPS_OK)
@@ -194,7 +194,7 @@ static mps_status begin(mps__bounds *b, mps__ppe *e, const mps_view *s, const mp
 {
     b->count = 0;
     if (e->device) {
-        b->any = e->bounded;
+        b->any = on_any_rank(e, e->bounded);
         return b->any ? mps__bounds_begin_there(b, e, s, t) : MPS_OK;
     }
     MPS__TRY(collect(b, e, s, t));

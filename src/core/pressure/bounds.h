@@ -12,7 +12,9 @@ typedef struct mps__bound_rows {
     float *val, *kept; /* entries of the matrix; those before pinning, of rows that it changed */
     const double *diagonal, *p;
     double *rhs, *shift, *kept_rhs, *kept_shift;
-    double *least, *margin;         /* [Pa]; NaN without a least pressure */
+    double *least, *margin; /* [Pa]; NaN without a least pressure */
+    double *pinned;         /* [columns] on many ranks: the pressure of a pinned row, else NaN */
+    int64_t rows;
     uint8_t *bounded, *held, *next; /* 1: it has one; is at it; will be */
     uint8_t *changed;               /* 1: by pinning */
     const double *value, *density;  /* of particles */
@@ -64,7 +66,7 @@ mps_status mps__bounds_solve_change(mps__bounds *b, mps__solvers *solvers, mps__
 mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *s,
                                    const mps__ppe_terms *t);
 /* Held rows are pinned; the equation as it was assembled. */
-void mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e);
+mps_status mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e);
 void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e);
 /* By the present pressures, whether rows are pinned or not: whether the set will change, a number of the device, > 0: it will. */
 void mps__bounds_look_there(void *bounds, double *to);

@@ -11,6 +11,21 @@ MPS_ROW bool is_pinned(const mps__bound_rows *f, int64_t r)
     return f->held[r] && isfinite(f->least[r]);
 }
 
+/* What other ranks get. */
+MPS_ROW void tell_pinned(const int dim, const mps__bound_rows *f, int64_t r)
+{
+    (void)dim;
+    f->pinned[r] = is_pinned(f, r) ? f->least[r] : NAN;
+}
+MPS__LOOP_ANY(tell_pinned_rows, tell_pinned, mps__bound_rows)
+
+/* The pressure of a column that is held; NaN: it is not. */
+MPS_ROW double pinned_at(const mps__bound_rows *f, int64_t c)
+{
+    if (c >= f->rows) return f->pinned[c];
+    return is_pinned(f, c) ? f->least[c] : NAN;
+}
+
 MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
     const int64_t i = f->particle[r];
@@ -33,14 +48,14 @@ MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->kept_shift[r] = shift;
     for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) {
         const int64_t c = f->col[p];
-        const bool pinned = is_pinned(f, c);
+        const double pinned = pinned_at(f, c);
         const double kij = -(double)f->val[p];
         f->kept[p] = f->val[p];
-        if (kij == 0 || !(own || pinned)) continue;
+        if (kij == 0 || !(own || isfinite(pinned))) continue;
         changed = true;
         f->val[p] = 0;
         if (own) continue;
-        rhs += kij * f->least[c];
+        rhs += kij * pinned;
         shift += kij;
     }
     f->changed[r] = changed;
@@ -100,14 +115,16 @@ static void run(const mps__bounds *b, const mps__ppe *e, const mps__loop *loop)
 static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->entries,
-                 bytes = 4 * n * sizeof(double) + entries * sizeof *f->kept +
+                 columns = e->problem.ranks ? (size_t)e->columns : 0,
+                 bytes = (4 * n + columns) * sizeof(double) + entries * sizeof *f->kept +
                          4 * n * sizeof *f->held;
     f->least = mps__device_fit(e->device, &e->there[MPS__PPE_BOUNDS], bytes);
     if (!f->least) return MPS_E_NOMEM;
     f->margin = f->least + n;
     f->kept_rhs = f->margin + n;
     f->kept_shift = f->kept_rhs + n;
-    f->kept = (float *)(void *)(f->kept_shift + n);
+    f->pinned = f->kept_shift + n;
+    f->kept = (float *)(void *)(f->pinned + columns);
     f->bounded = (uint8_t *)(void *)(f->kept + entries);
     f->held = f->bounded + n;
     f->next = f->held + n;
@@ -130,6 +147,7 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
                                 .density = t->flux->density,
                                 .condition = t->condition,
                                 .held_before = b->held,
+                                .rows = e->n,
                                 .nearly = MPS__BOUNDS_NEARLY,
                                 .speed = s->velocity_scale};
     MPS__TRY(reserve(&b->rows, e));
@@ -139,9 +157,14 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
     return MPS_OK;
 }
 
-void mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e)
+mps_status mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e)
 {
+    if (e->problem.ranks) {
+        run(b, e, &tell_pinned_rows);
+        if (mps_ppe_share(&e->problem, b->rows.pinned)) return mps__ranks_status(e->ghosts->ranks);
+    }
     run(b, e, &pin_rows);
+    return MPS_OK;
 }
 
 void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e)

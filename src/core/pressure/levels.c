@@ -13,6 +13,7 @@ typedef struct forest {
     const double *shift;
     mps__shared_number *parent;
     mps__shared_number *level; /* of a root: 1 if a row of its tree has a level */
+    double *told;              /* [columns] of rows: that of their tree; NULL: alone */
 } forest;
 
 /* Most rows come into the tree of their first column at once. */
@@ -50,15 +51,40 @@ MPS_ROW bool lacks_level(const forest *f, int64_t r)
 }
 MPS__FIRST(lacking_rows, lacks_level, forest)
 
+MPS_ROW void tell_row(const int dim, const forest *f, int64_t r)
+{
+    (void)dim;
+    f->told[r] = mps__forest_get(&f->level[mps__forest_root(f->parent, (int32_t)r)]);
+}
+MPS__LOOP_ANY(tell_rows, tell_row, forest)
+
+/* A tree that goes on at another rank has the level of the tree there. The maximum: whether any gets one so. */
+MPS_ROW void hear_row(const int dim, const forest *f, int64_t r, double *any)
+{
+    mps__shared_number *level = &f->level[mps__forest_root(f->parent, (int32_t)r)];
+    (void)dim;
+    for (int64_t k = f->row[r]; k < f->row[r + 1] && f->told[r] == 0; k++) {
+        if (f->col[k] < f->n || !(f->told[f->col[k]] > 0)) continue;
+        mps__forest_put(level, 1);
+        any[0] = 1;
+    }
+}
+MPS__VALUES_ANY(hear_rows, hear_row, forest, 0, 1)
+
+static forest forest_of(const mps__ppe *e)
+{
+    return (forest){.n = e->n,
+                    .row = e->row,
+                    .col = e->col,
+                    .shift = e->shift,
+                    .parent = (mps__shared_number *)(void *)e->queue,
+                    .level = (mps__shared_number *)(void *)e->component};
+}
+
 /* Trees of the rows of this rank. */
 static forest grow_forest(const mps__ppe *e)
 {
-    const forest f = {.n = e->n,
-                      .row = e->row,
-                      .col = e->col,
-                      .shift = e->shift,
-                      .parent = (mps__shared_number *)(void *)e->queue,
-                      .level = (mps__shared_number *)(void *)e->component};
+    const forest f = forest_of(e);
     mps__loop_run(e->parallel, &begin_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &raise_rows, MPS__ANY_DIM, e->n, &f);
@@ -173,12 +199,37 @@ void mps__levels_look(mps__ppe *e)
     e->lacking = lacking > 0;
 }
 
+/* On many ranks at a device: levels go from tree to tree until no other tree gets one. @param lacking  out: above -INFINITY where one is left */
+static mps_status spread_levels(mps__ppe *e, double *lacking)
+{
+    mps__ranks *ranks = e->ghosts->ranks;
+    forest f = forest_of(e);
+    double any = 1;
+    f.told = mps__device_fit(e->device, &e->there[MPS__PPE_LABELS],
+                             (size_t)e->columns * sizeof *f.told);
+    if (!f.told) return MPS_E_NOMEM;
+    while (*lacking > -INFINITY && any > 0) {
+        mps__loop_run(e->parallel, &tell_rows, MPS__ANY_DIM, e->n, &f);
+        if (e->ranks.share(e->ranks.host, f.told)) return mps__ranks_status(ranks);
+        double found[2] = {0, -INFINITY};
+        mps__values_run(e->parallel, &hear_rows, MPS__ANY_DIM, e->n, &f, NULL, &found[0]);
+        mps__values_run(e->parallel, &lacking_rows, MPS__ANY_DIM, e->n, &f, NULL, &found[1]);
+        mps__ranks_max(ranks, 2, found);
+        any = found[0];
+        *lacking = found[1];
+    }
+    return mps__ranks_status(ranks);
+}
+
 mps_status mps__levels_wait(mps__ppe *e)
 {
     double lacking = -INFINITY;
     if (e->n > 0)
         mps__device_download(e->device, &lacking, &e->counts_there->lacking, sizeof lacking);
-    if (e->ranks.ranks > 1) mps__ranks_max(e->ghosts->ranks, 1, &lacking);
+    if (e->ranks.ranks > 1) {
+        mps__ranks_max(e->ghosts->ranks, 1, &lacking);
+        MPS__TRY(spread_levels(e, &lacking));
+    }
     e->lacking = lacking > -INFINITY;
     return mps__device_status(e->device);
 }

@@ -5,7 +5,7 @@
 static int share_columns(void *host, double *x)
 {
     const mps__ppe *e = host;
-    return mps__ghosts_share_indexed(e->ghosts, e->unknown, x) < 0;
+    return mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x) < 0;
 }
 
 static int reduce_values(void *host, int32_t count, size_t bytes, void *values,

@@ -22,10 +22,17 @@ bool mps__solvers_known_there(const mps__solvers *s)
            (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
 }
 
+bool mps__solvers_known_on_ranks(const mps__solvers *s)
+{
+    return mps__solvers_known_there(s) && !(s->pc && is_auxgrid(s->pc));
+}
+
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
 {
-    return s->device && mps__solvers_known_there(s) && !e->ranks && !e->component && !e->law &&
-           e->n > 0;
+    /* ranks exchange where the equation is */
+    const bool known = e->ranks ? mps__solvers_known_on_ranks(s) && mps__device_of(e->parallel)
+                                : mps__solvers_known_there(s);
+    return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 
 /* @param there  out: the equation with the arrays there @param q  out: the pressures there */

@@ -253,10 +253,16 @@ static mps_status close_levels(mps_stage *s)
 static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
 {
     mps__world *w = mps__step_of(s)->w;
+    const bool many = mps__ranks_many(&w->ranks);
     note_level(mps__step_of(s));
-    const mps_status status = solve_equation(s, terms);
-    if (!w->solvers.hint.refused) return status;
-    w->solvers.hint.refused = false;
+    if (many) { /* their solver waits for each sum, and has no need of this one */
+        MPS__TRY(mps__levels_wait(&w->ppe));
+        if (!w->ppe.lacking) return solve_equation(s, terms);
+    } else {
+        const mps_status status = solve_equation(s, terms);
+        if (!w->solvers.hint.refused) return status;
+        w->solvers.hint.refused = false;
+    }
     MPS__TRY(close_levels(s));
     note_level(mps__step_of(s));
     return solve_here(s);
@@ -270,8 +276,8 @@ static void tell_apart(const mps__step *q)
     const mps__solvers *s = &w->solvers;
     char why[2 * MPS__NAME_SIZE + 40] = "";
     if (t->told_solution == w->host.plan.changes) return;
-    if (mps__ranks_many(&w->ranks))
-        snprintf(why, sizeof why, "there are %d ranks", (int)w->ranks.count);
+    if (mps__ranks_many(&w->ranks) && !mps__solvers_known_on_ranks(s))
+        snprintf(why, sizeof why, "on many ranks devices solve it with 'jacobi' or 'none'");
     else if (q->load.what == MPS_LOAD_MASS)
         snprintf(why, sizeof why, "the added mass is asked for");
     else if (!mps__solvers_known_there(s))
