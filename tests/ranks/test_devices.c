@@ -109,9 +109,10 @@ static void test_scene(void **state)
 
 typedef struct refusal {
     kit_engine_team *team;
+    bool no_room; /* in a step; else a launch fails */
     shadow device[2];
     mps_status status[2][3];
-    char error[2][2][TEXT], told[2][TEXT];
+    char error[2][3][TEXT], told[2][TEXT];
 } refusal;
 
 static void note(void *told, int32_t level, const char *text)
@@ -144,16 +145,19 @@ static void refuse(void *argument, int32_t rank)
     sim->context.log = note;
     sim->context.log_user = k->told[rank];
     assert_int_equal(mps_step(sim, 1, NULL), MPS_OK);
-    k->device[rank].fails_at = rank == 0 ? k->device[rank].launches + 40 : 0;
+    if (k->no_room) mps__ghosts_leave(&sim->world.ghosts); /* what they have there is made again */
+    k->device[rank].refuses = k->no_room && rank == 0;
+    k->device[rank].fails_at = rank == 0 && !k->no_room ? k->device[rank].launches + 40 : 0;
     k->status[rank][2] = mps_step(sim, 1, NULL);
+    snprintf(k->error[rank][2], TEXT, "%s", mps_sim_error(sim));
     mps_sim_destroy(sim);
 }
 
-static void devices_of_all_or_none(void **state)
+static void check_refusals(bool no_room)
 {
     refusal *k = calloc(1, sizeof *k);
-    (void)state;
     assert_non_null(k);
+    k->no_room = no_room;
     k->team = kit_engine_create(2, 0);
     kit_engine_run(k->team, refuse, k);
     kit_engine_destroy(k->team);
@@ -162,12 +166,22 @@ static void devices_of_all_or_none(void **state)
         assert_non_null(strstr(k->error[r][0], "must be all or none"));
         assert_int_equal(k->status[r][1], MPS_E_PLUGIN);
         assert_non_null(strstr(k->error[r][1], "does not open"));
-        assert_int_equal(k->status[r][2], r == 0 ? MPS_E_PLUGIN : MPS_E_RANKS);
+        assert_int_equal(k->status[r][2], r > 0     ? MPS_E_RANKS
+                                          : no_room ? MPS_E_NOMEM
+                                                    : MPS_E_PLUGIN);
+        assert_non_null(strstr(k->error[r][2], no_room ? "has no room" : "as the test wants it"));
         assert_int_equal(k->device[r].rooms, 0);
         assert_non_null(strstr(k->told[r], "solved on the host"));
         assert_non_null(strstr(k->told[r], "on many ranks"));
     }
     free(k);
+}
+
+static void devices_of_all_or_none(void **state)
+{
+    (void)state;
+    check_refusals(false);
+    check_refusals(true);
 }
 
 int main(void)

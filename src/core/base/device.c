@@ -79,6 +79,12 @@ static void note(mps__device *d, int failed)
     snprintf(d->why, sizeof d->why, "%s", why ? why : "it does not say why");
 }
 
+void mps__device_give_up(mps__device *d)
+{
+    if (!d->failed) snprintf(d->why, sizeof d->why, "%.300s", d->context->error);
+    d->failed = true;
+}
+
 mps_status mps__device_status(const mps__device *d)
 {
     if (!d->failed) return MPS_OK;

@@ -41,6 +41,8 @@ static inline bool mps__device_there(const mps__device *d)
 }
 /* Counts begin again, a failure is forgotten. */
 void mps__device_begin(mps__device *d);
+/* What loops need could not be made ready, as the error text says: the step fails. */
+void mps__device_give_up(mps__device *d);
 /* MPS_E_PLUGIN if a call has failed since. */
 mps_status mps__device_status(const mps__device *d);
 

@@ -113,7 +113,7 @@ static inline mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *sh
 mps_status mps__ghosts_share_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
                                      double *x);
 
-/* `ghost` for row functions at a device, NULL: the host; NULL too where this rank has none. What a failed device returns is not read. ghosts_there.c */
+/* `ghost` for row functions at a device, NULL: the host; NULL too where this rank has none. Where there is no room for it the device has failed. ghosts_there.c */
 const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d);
 /* The device is about to be detached. */
 void mps__ghosts_leave(mps__ghosts *g);

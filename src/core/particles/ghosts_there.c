@@ -39,7 +39,8 @@ static mps_status show(mps__ghosts *g, mps__device *d)
 const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d)
 {
     if (!g->ghost || !d) return g->ghost;
-    return show(g, d) == MPS_OK ? g->there.ghost.data : NULL;
+    if (show(g, d) < 0) mps__device_give_up(d); /* no loop would leave them out */
+    return g->there.ghost.data;
 }
 
 typedef struct packets {
