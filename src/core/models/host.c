@@ -313,6 +313,7 @@ static mps_status run_verb(mps__host *h, mps_stage *s, const mps__call *call)
     h->line = mps__host_line(h, call);
     const int failed = call->verb->run(s) || h->misused;
     h->context->lock = before;
+    if (failed && h->ghosts->ranks->failed) return mps__ranks_status(h->ghosts->ranks);
     return failed ? verb_failed(h, call, s->view->t) : check_after(h, s, call);
 }
 
