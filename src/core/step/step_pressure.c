@@ -253,9 +253,10 @@ static mps_status close_levels(mps_stage *s)
 static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
 {
     mps__world *w = mps__step_of(s)->w;
-    const bool many = mps__ranks_many(&w->ranks);
+    /* there its solver waits for each sum, and has no need of this one */
+    const bool joins = w->ppe.device && mps__ranks_many(&w->ranks);
     note_level(mps__step_of(s));
-    if (many) { /* their solver waits for each sum, and has no need of this one */
+    if (joins) {
         MPS__TRY(mps__levels_wait(&w->ppe));
         if (!w->ppe.lacking) return solve_equation(s, terms);
     } else {
