@@ -19,8 +19,9 @@ typedef struct kit {
     int failed; /* sum of KIT_... */
     int scenes; /* that accept the model */
     kit_case scene[KIT_SCENES];
-    bool unsteady;          /* two runs differ: what compares runs would give a wrong reason */
-    bool acted[MOST_VERBS]; /* the verb changes something in a scene */
+    kit_state state[KIT_SCENES]; /* after its steps, with one thread */
+    bool unsteady;               /* two runs differ: what compares runs would give a wrong reason */
+    bool acted[MOST_VERBS];      /* the verb changes something in a scene */
 } kit;
 
 #define FAIL(k, bit, ...) ((k)->failed |= kit_say((k)->ops, (bit), __VA_ARGS__))
@@ -105,10 +106,11 @@ static void check_run(kit *k)
         }
         if (status >= 0 && !kit_state_finite(&state))
             FAIL(k, KIT_RUN, "preset %s, %d-D: a field is not finite", c.preset, (int)c.dim);
-        if (status >= 0) k->scene[k->scenes++] = c;
         if (status < 0 && !refused(status))
             FAIL(k, KIT_RUN, "preset %s, %d-D: %s", c.preset, (int)c.dim, text);
-        kit_state_free(&state);
+        if (status < 0) continue;
+        k->state[k->scenes] = state;
+        k->scene[k->scenes++] = c;
     }
     if (k->scenes == 0) FAIL(k, KIT_RUN, "no scene accepts the model; the last one: %s", text);
 }
@@ -147,12 +149,13 @@ static void check_repeat(kit *k)
     kit_state_free(&second);
 }
 
-static void compare_threads(kit *k, kit_case c, const kit_state *one, int32_t threads)
+static void compare_threads(kit *k, int n, int32_t threads)
 {
+    kit_case c = k->scene[n];
     kit_state more;
     c.threads = threads;
     run_scene(&c, STEPS, &more, NULL);
-    if (!kit_state_same(one, &more))
+    if (!kit_state_same(&k->state[n], &more))
         FAIL(k, KIT_THREADS, "preset %s, %d-D: %d threads give other bytes than one", c.preset,
              (int)c.dim, (int)threads);
     kit_state_free(&more);
@@ -161,11 +164,8 @@ static void compare_threads(kit *k, kit_case c, const kit_state *one, int32_t th
 static void check_threads(kit *k)
 {
     for (int n = 0; n < k->scenes; n++) {
-        kit_state one;
-        run_scene(&k->scene[n], STEPS, &one, NULL);
-        compare_threads(k, k->scene[n], &one, 2);
-        compare_threads(k, k->scene[n], &one, 4);
-        kit_state_free(&one);
+        compare_threads(k, n, 2);
+        compare_threads(k, n, 4);
     }
 }
 
@@ -450,5 +450,6 @@ int kit_check_model(const mps_model_ops *ops, kit_prepare_fn prepare, void *user
     for (size_t i = 0; k.scenes > 0 && i < sizeof checks / sizeof checks[0]; i++)
         if (!(checks[i].steady && k.unsteady)) checks[i].check(&k);
     kit_summary(ops, k.failed, k.scenes, k.scene, k.acted);
+    for (int n = 0; n < k.scenes; n++) kit_state_free(&k.state[n]);
     return k.failed;
 }
