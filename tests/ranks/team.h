@@ -3,6 +3,7 @@
 #ifndef RANKS_TEAM_H
 #define RANKS_TEAM_H
 
+#include "../every.h"
 #include "kit_engine.h"
 #include "scenes.h"
 #include <string.h>
@@ -13,6 +14,13 @@ static inline const scene *scene_named(const char *name)
     for (int k = 0; k < SCENES; k++)
         if (strcmp(scenes[k].name, name) == 0) return &scenes[k];
     return NULL;
+}
+
+/* Whether a scene runs in this one of so many ways, e.g. numbers of ranks: in all of them, but under sanitizers in one. All ways come among
+ * the scenes then. */
+static inline bool scene_runs(const scene *s, int way, int ways)
+{
+    return has_turn(s - scenes, ways - way, ways);
 }
 
 /* A scene that is built and has not stepped, on a rank of a team; `team` NULL: alone. */

@@ -99,10 +99,11 @@ static void compare(const scene *s, int32_t ranks)
 /* On two ranks, and on four with jacobi, which devices of ranks solve with. */
 static void test_scene(void **state)
 {
-    scene s = *(const scene *)*state;
-    compare(&s, 2);
+    const scene *of = *state;
+    scene s = *of;
+    if (scene_runs(of, 0, 2)) compare(&s, 2);
     s.preconditioner = "jacobi";
-    compare(&s, MOST);
+    if (scene_runs(of, 1, 2)) compare(&s, MOST);
 }
 
 /* ---- refusals ---- */
