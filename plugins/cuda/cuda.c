@@ -49,8 +49,13 @@ mps_status mps_cuda_use(mps_sim *sim, int32_t number)
                               .failure = failure,
                               .begin = cuda_begin,
                               .end = cuda_end};
+    bool ended = false; /* where the GPU of another rank does not open */
+    c->ended = &ended;
     const mps_status status = mps_sim_device_set(sim, &c->ops);
-    if (status < 0) free(c);
+    if (status >= 0)
+        c->ended = NULL;
+    else if (!ended)
+        free(c);
     return status;
 }
 

@@ -24,6 +24,7 @@ typedef struct cuda_kernel {
 typedef struct cuda {
     mps_device_ops ops;
     int number;
+    bool *ended;   /* NULL, or set when this is no more */
     cuda_gpu *gpu; /* NULL: not begun */
     const cuda_driver *driver;
     cuda_handle stream;

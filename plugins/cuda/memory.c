@@ -52,6 +52,7 @@ void cuda_end(void *self)
         cuda_leave(c);
     }
     if (c->gpu) cuda_gpu_close(c->gpu);
+    if (c->ended) *c->ended = true;
     free(c->room);
     free(c);
 }

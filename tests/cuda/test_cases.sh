@@ -66,6 +66,10 @@ ranks() {
         diff -rq "alone/$file" "many/$file" > log 2>&1 || fail "two ranks"
     done
     runs=$((runs + 1))
+    # a rank without a driver ends all
+    printf '#!/bin/sh\n[ "${OMPI_COMM_WORLD_RANK:-$PMI_RANK}" = 0 ] || unset LD_LIBRARY_PATH\nexec "$@"\n' > some && chmod +x some
+    LD_LIBRARY_PATH=$standin:$plugin STANDIN_KERNELS=$kernels timeout 120 "$starter" "$MPIRUN" 2 ./some "$program" run "$case" -o none "${options[@]}" --mpi --device cuda > log 2>&1
+    [ $? -eq 2 ] && grep -q "no driver of NVIDIA is installed" log || fail "a rank without a driver"
 }
 [ -z "${MPIRUN:-}" ] || [ $# -gt 0 ] || ranks
 [ $failed -eq 0 ] && echo "$runs runs, one half on the host, one on the GPU, or on two ranks: the same bytes"

@@ -121,6 +121,11 @@ static void note(void *told, int32_t level, const char *text)
     if (level == MPS_LOG_INFO) snprintf(told, TEXT, "%s", text);
 }
 
+static void note_end(void *self)
+{
+    ((shadow *)self)->ended++;
+}
+
 static int does_not_open(void *self)
 {
     (void)self;
@@ -139,9 +144,11 @@ static void refuse(void *argument, int32_t rank)
     k->status[rank][0] = mps_sim_device_set(sim, rank == 0 ? &ops : NULL);
     snprintf(k->error[rank][0], TEXT, "%s", mps_sim_error(sim));
     if (rank == 1) ops.begin = does_not_open;
+    ops.end = note_end;
     k->status[rank][1] = mps_sim_device_set(sim, &ops);
     snprintf(k->error[rank][1], TEXT, "%s", mps_sim_error(sim));
     assert_null(shadow_counts(sim).name); /* both are on the host */
+    assert_int_equal(k->device[rank].ended, rank == 0);
     shadow_attach(&k->device[rank], sim);
     sim->context.log = note;
     sim->context.log_user = k->told[rank];

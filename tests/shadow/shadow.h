@@ -13,6 +13,7 @@ typedef struct shadow {
     int64_t rooms;                        /* that were not given back */
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
+    int32_t ended;                        /* calls of a function of the test's */
     bool refuses;                         /* there is no room */
     bool dead;                            /* all fails that may */
     const char *why;                      /* what failed last; other calls forget it */
