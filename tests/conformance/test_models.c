@@ -50,6 +50,12 @@ static mps_status much_drag(void *user, mps_sim *sim)
     return status < 0 ? status : mps_model_set(sim, "drag", "times", 0);
 }
 
+static mps_status little_suction(void *user, mps_sim *sim)
+{
+    (void)user;
+    return mps_model_set(sim, "cavitation", "least", 1);
+}
+
 /* Nothing but the model fixes the level of incompressible air; water alone has a surface. */
 static mps_status no_gas(void *user, mps_sim *sim)
 {
@@ -86,13 +92,10 @@ static kit_prepare_fn prepare_of(const mps_model_ops *ops)
     static const struct {
         const char *model;
         kit_prepare_fn prepare;
-    } list[] = {{"gradient.conservative", one_phase},
-                {"friction.history", thin_tank},
-                {"collision.pair", far_collisions},
-                {"surface.detached", much_spray},
-                {"gas.pocket", with_pocket},
-                {"drag.lone", much_drag},
-                {"reference.lid", no_gas}};
+    } list[] = {{"gradient.conservative", one_phase},  {"friction.history", thin_tank},
+                {"collision.pair", far_collisions},    {"surface.detached", much_spray},
+                {"gas.pocket", with_pocket},           {"drag.lone", much_drag},
+                {"cavitation.vapour", little_suction}, {"reference.lid", no_gas}};
     for (size_t k = 0; k < sizeof list / sizeof list[0]; k++)
         if (strcmp(list[k].model, ops->name) == 0) return list[k].prepare;
     return NULL;

@@ -29,6 +29,7 @@ extern const mps_model_ops mps__gas_compressible;
 extern const mps_model_ops mps__gas_isentropic;
 extern const mps_model_ops mps__gas_pocket;
 extern const mps_model_ops mps__separation_void;
+extern const mps_model_ops mps__cavitation_vapour;
 extern const mps_model_ops mps__gradient_conservative;
 extern const mps_model_ops mps__gradient_corrected;
 extern const mps_model_ops mps__gradient_density;
