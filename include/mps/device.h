@@ -112,9 +112,9 @@ typedef struct mps_device_ops {
     /** NULL, or called by mps_sim_device_set() before all others: the device opens. Non-zero
      *  refuses, with the text of `failure`. */
     int (*begin)(void *self);
-    /** NULL, or called once when the library no longer uses a device that it has opened: another one
-     *  was set, the handle is destroyed, or on many ranks mps_sim_device_set() fails because that of
-     *  another rank does. Not where it fails here. */
+    /** NULL, or called once when the library no longer uses a device that it has opened: another
+     *  one was set, the handle is destroyed, or on many ranks mps_sim_device_set() fails because
+     *  that of another rank does. Not where it fails here. */
     void (*end)(void *self);
 } mps_device_ops;
 
