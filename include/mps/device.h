@@ -59,7 +59,7 @@ typedef struct mps_launch {
      *  reads any more what they would write: a device may leave them out. */
     const int64_t *unless;
     /** NULL, or [n] bytes of the device: rows whose byte is not 0 are left out. Their terms are 0,
-     *  and they raise no maximum. `run` knows them. */
+     *  and they raise no maximum. `run` knows them. Only loops with a view have it. */
     const uint8_t *skip;
 } mps_launch;
 
@@ -156,8 +156,8 @@ typedef struct mps_device_info {
  *
  *  On many ranks a call of all ranks together: each has a device of its own, or none has one.
  *  Where one fails all fail, and all run on the host then. A search of neighbours is done on the
- *  hosts, and so is the solution of the pressure equation but by `sundials.pcg` with `jacobi` or
- *  `none`.
+ *  hosts. The pressure equation is solved on the devices by `sundials.pcg` with `jacobi` or no
+ *  preconditioner, by all other solvers on the hosts.
  *  @return MPS_E_ARG (which entry, and what is allowed; some ranks have a device, others none),
  *  MPS_E_BUSY (a lease is open), MPS_E_NOMEM, MPS_E_PLUGIN (the device does not open, or the one
  *  before does not give the fields), MPS_E_RANKS; alone the handle is as before */

@@ -29,13 +29,12 @@ typedef struct fields {
     const int32_t *region;
     int32_t *condition;
     double *value;
-    double near;
 } fields;
 
 MPS_ROW void bound_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
-    if (f->condition[i] != MPS_ROW_FREE || !(f->pressure[i] < -f->near * v->setting[LEAST])) return;
+    if (f->condition[i] != MPS_ROW_FREE || !(f->pressure[i] < -NEAR * v->setting[LEAST])) return;
     if (mps_is_dummy(v, i) || mps_region_of(f->region, i) != MPS_REGION_INNER) return;
     f->condition[i] = MPS_ROW_LEAST;
     f->value[i] = -v->setting[LEAST];
@@ -47,8 +46,7 @@ static int bound_pressures(mps_stage *s)
     const fields f = {.pressure = s->data[PRESSURE],
                       .region = s->data[REGION],
                       .condition = s->data[PRESSURE_CONDITION],
-                      .value = s->data[PRESSURE_VALUE],
-                      .near = NEAR};
+                      .value = s->data[PRESSURE_VALUE]};
     mps_stage_rows(s, &bound_rows, &f);
     return 0;
 }

@@ -16,14 +16,7 @@ static inline mps_sim *unwatched(const char *preset, int32_t dim)
     ASSERT_OK(sim, mps_preset_use(sim, preset));
     add_tank(sim, 0.6, 0.6, 0.4);
     fill_depth(sim, 0.6, 0.3, 0.4);
-    if (strncmp(preset, "mmps", 4) == 0) {
-        mps_phase air;
-        assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
-        air.density = 1.2;
-        air.viscosity = 1.8e-5;
-        ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
-        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
-    }
+    if (strncmp(preset, "mmps", 4) == 0) fill_air(sim, lo, hi);
     ASSERT_OK(sim, mps_field_add(sim, "mark", 2));
     shake(sim, 0.05);
     return sim;

@@ -67,6 +67,31 @@ static inline int64_t fill_depth(mps_sim *sim, double sx, double depth, double s
     return added;
 }
 
+/* Air as phase 1 where a box has no other fluid. */
+static inline void fill_air(mps_sim *sim, const double lo[3], const double hi[3])
+{
+    mps_phase air;
+    assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
+    air.density = 1.2;
+    air.viscosity = 1.8e-5;
+    ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
+    ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
+}
+
+/* Surge with an acceleration that comes on smoothly to 4 g, so that nothing jumps. */
+static inline int pull_away(void *user, double t, mps_motion_state *state)
+{
+    (void)user;
+    const double a = 4 * 9.81, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise),
+                 after = t - q;
+    const double rate = 0.5 * a * (q - sin(w * q) / w);
+    state->accel[MPS_MOVE_X] = -0.5 * a * (1 - cos(w * q));
+    state->rate[MPS_MOVE_X] = -(rate + a * after);
+    state->value[MPS_MOVE_X] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
+                                 rate * after + 0.5 * a * after * after);
+    return 0;
+}
+
 /* Number of active models of that name: 0 or 1. */
 static inline int model_active(const mps_sim *sim, const char *name)
 {

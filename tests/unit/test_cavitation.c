@@ -3,21 +3,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "tank_fixture.h"
 
-static const double GRAVITY = 9.81, LENGTH = 0.8;
-
-/* Surge with an acceleration that comes on smoothly to 4 g: liquid pulls at the wall that it lags behind by some kPa. */
-static int pull(void *user, double t, mps_motion_state *state)
-{
-    (void)user;
-    const double a = 4 * GRAVITY, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise),
-                 after = t - q;
-    const double rate = 0.5 * a * (q - sin(w * q) / w);
-    state->accel[MPS_MOVE_X] = -0.5 * a * (1 - cos(w * q));
-    state->rate[MPS_MOVE_X] = -(rate + a * after);
-    state->value[MPS_MOVE_X] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
-                                 rate * after + 0.5 * a * after * after);
-    return 0;
-}
+static const double LENGTH = 0.8;
 
 /* Half of the tank is liquid, the rest gas with `mmps`; walls may pull. `least` 0: without the model [Pa] */
 static mps_sim *build(const char *preset, int32_t dim, double least)
@@ -31,15 +17,8 @@ static mps_sim *build(const char *preset, int32_t dim, double least)
     if (least > 0) ASSERT_OK(sim, mps_model_set(sim, "cavitation", "least", least));
     add_tank(sim, LENGTH, 0.8, across);
     ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, NULL));
-    if (strcmp(preset, "mmps") == 0) {
-        mps_phase air;
-        assert_int_equal(mps_phase_init(&air, sizeof air), MPS_OK);
-        air.density = 1.2;
-        air.viscosity = 1.8e-5;
-        ASSERT_OK(sim, mps_phase_set(sim, 1, &air));
-        ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, all, NULL, NULL));
-    }
-    ASSERT_OK(sim, mps_motion_callback_set(sim, pull, NULL));
+    if (strcmp(preset, "mmps") == 0) fill_air(sim, lo, all);
+    ASSERT_OK(sim, mps_motion_callback_set(sim, pull_away, NULL));
     return sim;
 }
 

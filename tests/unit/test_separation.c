@@ -66,20 +66,6 @@ static const mps_model_ops spy_model = {.struct_size = sizeof(mps_model_ops),
 
 typedef enum scene { PULLED, EDGE, PLATE } scene;
 
-/* Surge with an acceleration that comes on smoothly to 4 g, so that nothing jumps. */
-static int pull(void *user, double t, mps_motion_state *state)
-{
-    (void)user;
-    const double a = 4 * GRAVITY, rise = 0.1, w = 3.14159265358979 / rise, q = fmin(t, rise),
-                 after = t - q;
-    const double rate = 0.5 * a * (q - sin(w * q) / w);
-    state->accel[MPS_MOVE_X] = -0.5 * a * (1 - cos(w * q));
-    state->rate[MPS_MOVE_X] = -(rate + a * after);
-    state->value[MPS_MOVE_X] = -(0.5 * a * (0.5 * q * q - (1 - cos(w * q)) / (w * w)) +
-                                 rate * after + 0.5 * a * after * after);
-    return 0;
-}
-
 /* A stream that runs against a box on the floor and over its edge. */
 static void stream(mps_sim *sim)
 {
@@ -107,7 +93,7 @@ static mps_sim *build(scene what, int32_t dim)
     if (what == EDGE)
         stream(sim);
     else
-        ASSERT_OK(sim, mps_motion_callback_set(sim, pull, NULL));
+        ASSERT_OK(sim, mps_motion_callback_set(sim, pull_away, NULL));
     return sim;
 }
 
