@@ -42,6 +42,7 @@ static const struct {
              "source.volume tau=20 clip=0.5 strain=1 gain=0.7 firm=0.03 rapid=3 torn=0.15 "
              "forward=0 pace=1 aside=1 start=5; "
              "gas.compressible phase=1 sound=340 printed=0 conserve=1; "
+             "cavitation.vapour least=99000; "
              "gradient.corrected second_order=0; "
              "load.reaction cover=1; "
              "drag.lone company=0.333333333 times=3; "

@@ -32,8 +32,9 @@ static const changed imps_settings[] = {{"collision.pair", "restitution", 0}, {N
 static const char *const mmps_models[] = {
     "surface.detached",  "reference.lid",    "wall.half",          "moments.bounded",
     "density.interface", "viscosity.pair",   "dissipation.radial", "tension.jump",
-    "source.volume",     "gas.compressible", "gradient.corrected", "load.reaction",
-    "drag.lone",         "collision.pair",   "shift.tangential",   NULL};
+    "source.volume",     "gas.compressible", "cavitation.vapour",  "gradient.corrected",
+    "load.reaction",     "drag.lone",        "collision.pair",     "shift.tangential",
+    NULL};
 static const changed mmps_settings[] = {
     {"moments.bounded", "torn", 0.7},     {"viscosity.pair", "stress", 1},
     {"source.volume", "clip", 0.5},       {"source.volume", "rapid", 3},
