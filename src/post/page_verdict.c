@@ -12,7 +12,7 @@ enum { SMOOTH = 25 };
  * tanks with three spacings by scripts/impacts; docs/explanations/impacts.md has the table. */
 static const struct {
     double rise, deviation;
-} scatter_of[] = {{1.5, 0.40}, {INFINITY, 0.28}};
+} scatter_of[] = {{1.5, 0.36}, {INFINITY, 0.28}};
 
 /* Scatter of repeats below which a peak is good, and above which it is poor. */
 static const double SCATTER_GOOD = 0.2, SCATTER_POOR = 0.5;

@@ -174,7 +174,7 @@ static void steep_or_not(void **unused)
         if (steep)
             CHECK_PAGE(&s, "Resolution of impacts <span class=\"state\">poor",
                        "This peak depends on the spacing", "id=\"impacts\"",
-                       "Repeats <span class=\"state\">check", "standard deviation of 40 %");
+                       "Repeats <span class=\"state\">check", "standard deviation of 36 %");
         else
             CHECK_PAGE(&s, "no steep peak", "Repeats <span class=\"state\">good",
                        "!id=\"impacts\"");
