@@ -17,7 +17,7 @@ static int create(const mps_allocator *allocator, void **self)
     const int64_t *whole = *self; /* of tests */
     auxgrid *a = mps__take(allocator, 1, sizeof *a);
     if (!a) return MPS_PPE_NOMEM;
-    *a = (auxgrid){.here.allocator = *allocator};
+    *a = (auxgrid){.here = {.allocator = *allocator, .host = *allocator}};
     a->here.ranks.whole = whole ? *whole : MPS__GRID_WHOLE;
     a->grid = &a->here;
     *self = a;
@@ -55,10 +55,17 @@ static int find_cells(mps__grid *g, const mps_ppe_problem *problem, const mps__g
     return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
 }
 
+/* Whether a device answers all questions at once. On many ranks the host joins what each of them tells. */
+static bool asks_once(const mps__grid *g, const mps_ppe_problem *problem)
+{
+    return g->device && !problem->ranks;
+}
+
 static int build_grids(mps__grid *g, const mps_ppe_problem *problem, const mps__grid_common *common)
 {
-    int reason = g->device ? mps__grid_ask(g, problem) : find_cells(g, problem, common);
-    if (!reason && g->device && !mps__grid_make_cells(g, &g->level[0])) reason = MPS_PPE_NOMEM;
+    const bool once = asks_once(g, problem);
+    int reason = once ? mps__grid_ask(g, problem) : find_cells(g, problem, common);
+    if (!reason && once && !mps__grid_make_cells(g, &g->level[0])) reason = MPS_PPE_NOMEM;
     if (!reason) reason = mps__grid_from_matrix(g, problem);
     if (reason) return reason;
     g->levels = 1;
@@ -74,7 +81,10 @@ static mps__grid *grid_for(auxgrid *a, const mps_ppe_problem *problem)
     if (!d) return &a->here;
     if (a->there.device != d) {
         mps__auxgrid_leave(a);
-        a->there = (mps__grid){.allocator = mps__device_allocator(d), .device = d};
+        a->there = (mps__grid){.allocator = mps__device_allocator(d),
+                               .host = a->here.allocator,
+                               .device = d,
+                               .ranks.whole = INT64_MAX};
     }
     return &a->there;
 }
@@ -86,7 +96,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     const int64_t columns = mps__columns(problem),
                   rows = problem->ranks ? problem->ranks->rows : problem->n;
     mps__grid_common common = {.square = 0};
-    int reason = g->device ? 0 : mps__grid_look(problem, &common);
+    int reason = asks_once(g, problem) ? 0 : mps__grid_look(problem, &common);
     g->levels = 0;
     if (reason) return reason;
     if (g->dim != problem->dim) mps__grid_release(g); /* its arrays are sized by the dimension */

@@ -71,7 +71,14 @@ enum {
     MPS__GRID_VALUES,
     MPS__GRID_ENTRIES,
     MPS__GRID_PLACES,
-    MPS__GRID_COUNTS,
+    MPS__GRID_SEND_THERE,
+    MPS__GRID_RECEIVE_THERE,
+    MPS__GRID_OWNED_THERE,
+    MPS__GRID_OWNERS_THERE,
+    MPS__GRID_TURNS_THERE,
+    MPS__GRID_PACKET,
+    MPS__GRID_HERE, /* from here on memory of the host, whatever the grid has */
+    MPS__GRID_COUNTS = MPS__GRID_HERE,
     MPS__GRID_KEYS,
     MPS__GRID_OWNERS,
     MPS__GRID_CELLS,
@@ -84,6 +91,10 @@ enum {
     MPS__GRID_PARTS_IN,
     MPS__GRID_OUT,
     MPS__GRID_IN,
+    MPS__GRID_CELL_KEYS,
+    MPS__GRID_AROUND,
+    MPS__GRID_WIDE,
+    MPS__GRID_FACES,
     MPS__GRID_ROOMS
 };
 
@@ -117,10 +128,18 @@ typedef struct mps__grid_divided {
     mps__grid_plan left; /* rest */
 } mps__grid_divided;
 
+/* Lists of a rank that has a device, in its memory. */
+typedef struct mps__grid_there {
+    int64_t *send, *receive; /* parts */
+    int64_t *owned;          /* [cells] of the first grid, as mps__grid_owned has them */
+    int32_t *owner;          /* [cells] of it */
+    double *packet;          /* what comes to the host or goes from there */
+} mps__grid_there;
+
 /* Many ranks: each cell of the first grid is owned by the rank that owns its centre, one of a coarser grid by the owner of its first cell.
  * The owner sums the particles of the cell, which it all has, and what they add to the cells about it goes to the owners of these. All
  * ranks have the cells and coefficients of all grids. Of large grids each solves its own cells; the right side of the first small one is
- * collected on all ranks, which do the same with it and all coarser ones. */
+ * collected on all ranks, which do the same with it and all coarser ones. On devices no grid is large: a message costs more than the cells. */
 typedef struct mps__grid_ranks {
     mps_ppe_ranks table; /* its `ranks` are 0: alone */
     mps__grid_room room[MPS__GRID_ROOMS];
@@ -133,6 +152,10 @@ typedef struct mps__grid_ranks {
     int64_t *count;        /* [ranks] scratch */
     mps__grid_owned owned; /* cells of the first grid */
     int32_t *owner;        /* [cells] of it */
+    const int64_t *key;    /* [cells] of it, on the host */
+    const int32_t *about;  /* [cells * 3^dim] the same */
+    const double *collected; /* what the last collection gave, cell by cell in the order of `owned` */
+    mps__grid_there there;
     double *out, *in;
     int64_t *send,
         *receive; /* parts that go to other ranks and come from them, in the order of the route */
@@ -167,7 +190,7 @@ typedef struct mps__grid_told {
 } mps__grid_told;
 
 typedef struct mps__grid {
-    mps_allocator allocator;
+    mps_allocator allocator, host; /* of the arrays; of what ranks keep on the host */
     const mps_parallel *parallel;
     mps__device *device; /* whose memory the arrays are in, and where loops run; NULL: here */
     int dim;
@@ -232,8 +255,9 @@ bool mps__grid_reserve_order(mps__grid *g, int64_t cells);
 bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
 /* Slots for so many cells. */
 int64_t mps__grid_table_for(int64_t cells);
-/* Room that is kept. */
+/* Room that is kept, and the same on the host. */
 void *mps__grid_room_of(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
+void *mps__grid_room_here(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
 
 /* ---- cells (auxgrid_cells.c) ---- */
 
@@ -271,6 +295,12 @@ static inline void mps__grid_counted(mps__grid_level *l, const double cells[2])
 }
 /* Then homes, keys, lists of points, neighbours. */
 void mps__grid_number(mps__grid *g, mps__grid_level *l);
+/* As mps__grid_find(), for points whose keys are there. */
+int64_t mps__grid_find_there(mps__grid *g, mps__grid_level *l, int64_t points);
+/* Homes of the points of a level among its cells, whose keys are there. */
+void mps__grid_home(mps__grid *g, mps__grid_level *l);
+/* Points of the own cells of a rank by cell, as mps__grid_list() has them on the host. */
+void mps__grid_list_own(mps__grid *g, mps__grid_level *l);
 
 /* ---- coefficients of the first grid (auxgrid_links.c) ---- */
 
@@ -346,6 +376,8 @@ int mps__grid_restrict(mps__grid *g, const double *values, double scale);
 /* Begin with an equation, on one rank or many. */
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem);
 void mps__grid_ranks_release(mps__grid *g);
+/* Room that is kept: MPS__GRID_VALUES .. of the grid, from MPS__GRID_HERE on of the host. */
+void *mps__grid_ranks_room(mps__grid *g, int which, int64_t count, size_t size);
 /* Cells of the first grid and their owners, after mps__grid_lay(). Conductivities and numbers of entries of all columns. */
 int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem);
 /* Values [n] of the rows into `value`, and those of the other columns. */
@@ -355,6 +387,20 @@ int mps__grid_ranks_exchange(mps__grid *g);
 /* Values of cells: those of each rank's own cells to all ranks. */
 int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
                             double *const *array);
+
+/* ---- many ranks with a device each (auxgrid_ranks_there.c) ---- */
+
+/* Cells of the first grid from the keys of all ranks, as mps__grid_cells() makes them, and homes of all columns. The host gets what owners
+ * are found from. Returns 0 or a reason of failure. */
+int mps__grid_cells_there(mps__grid *g, const mps_ppe_problem *problem, const int64_t *key,
+                          int64_t keys);
+/* What ranks have found on the host goes to the device. Returns 0 or a reason of failure. */
+int mps__grid_owners_go(mps__grid *g);
+/* Values at places of arrays come to the host side by side, and go. place: there */
+void mps__grid_come(mps__grid *g, const int64_t *place, int64_t count, int arrays,
+                    double *const *array, double *values);
+void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,
+                  double *const *array, const double *values);
 
 /* ---- divided grids (auxgrid_divided.c) ---- */
 

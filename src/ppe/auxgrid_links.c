@@ -354,7 +354,7 @@ static int collect_sums(mps__grid *g, mps__grid_level *l)
     const int reason = mps__grid_ranks_collect(g, &g->ranks.owned, 3,
                                                (double *[]){l->count, l->kappa, l->x});
     if (reason) return reason;
-    for (int64_t c = 0; c < l->cells; c++) counted += l->count[c];
+    for (int64_t c = 0; c < l->cells; c++) counted += g->ranks.collected[3 * c];
     return counted == (double)g->ranks.table.rows ? 0 : MPS_PPE_BREAKDOWN;
 }
 
@@ -375,6 +375,7 @@ int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
         reason = mps__grid_wires(g, problem);
     if (reason) return reason;
     mps__grid_share_particles(g, problem);
-    if (mps__grid_many(g)) memset(g->parts, 0, parts); /* what no rank fills stays zero */
+    if (mps__grid_many(g)) /* what no rank fills stays zero */
+        mps__vectors_clear(team, (l->cells + 1) * mps__grid_all(g->dim), g->parts);
     return share_shifts(g);
 }

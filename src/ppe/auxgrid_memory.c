@@ -4,15 +4,25 @@
 #include "kernels.h"
 #include "scan.h"
 
-void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
+static void *fit(const mps_allocator *a, mps__grid_room *r, int64_t count, size_t size)
 {
     const int64_t bytes = count * (int64_t)size;
     if (r->at && bytes <= r->bytes) return r->at;
-    mps__give(&g->allocator, r->at);
+    mps__give(a, r->at);
     r->bytes = bytes + bytes / 8 + 64;
-    r->at = mps__take(&g->allocator, r->bytes, 1);
+    r->at = mps__take(a, r->bytes, 1);
     if (!r->at) r->bytes = 0;
     return r->at;
+}
+
+void *mps__grid_room_of(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
+{
+    return fit(&g->allocator, r, count, size);
+}
+
+void *mps__grid_room_here(mps__grid *g, mps__grid_room *r, int64_t count, size_t size)
+{
+    return fit(&g->host, r, count, size);
 }
 
 static void drop(mps__grid *g, mps__grid_room *r)

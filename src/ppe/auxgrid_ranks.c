@@ -3,9 +3,12 @@
  * by their numbers.
  *
  * Sums over particles have the same terms in the same order as on one rank: the owner of a cell has all of its particles as rows or
- * columns, in the order of the particles, and the owner of a cell beside it gets the parts for it one by one. */
+ * columns, in the order of the particles, and the owner of a cell beside it gets the parts for it one by one.
+ *
+ * Owners, lists and messages are of the host. Where a rank has a device, arrays of particles and cells are there: auxgrid_ranks_there.c. */
 #include "auxgrid.h"
 #include "kernels.h"
+#include "loop.h"
 #include <string.h>
 
 enum {
@@ -15,9 +18,16 @@ enum {
 
 /* ---- memory ---- */
 
+void *mps__grid_ranks_room(mps__grid *g, int which, int64_t count, size_t size)
+{
+    mps__grid_room *r = &g->ranks.room[which];
+    return which < MPS__GRID_HERE ? mps__grid_room_of(g, r, count, size)
+                                  : mps__grid_room_here(g, r, count, size);
+}
+
 static void *room(mps__grid *g, int which, int64_t count, size_t size)
 {
-    return mps__grid_room_of(g, &g->ranks.room[which], count, size);
+    return mps__grid_ranks_room(g, which, count, size);
 }
 
 static void disconnect(mps__grid_ranks *r)
@@ -31,9 +41,25 @@ void mps__grid_ranks_release(mps__grid *g)
     const int64_t whole = g->ranks.whole;
     disconnect(&g->ranks);
     mps__grid_divided_release(g);
-    for (int k = 0; k < MPS__GRID_ROOMS; k++) mps__give(&g->allocator, g->ranks.room[k].at);
+    for (int k = 0; k < MPS__GRID_ROOMS; k++)
+        mps__give(k < MPS__GRID_HERE ? &g->allocator : &g->host, g->ranks.room[k].at);
     g->ranks = (mps__grid_ranks){.whole = whole};
 }
+
+/* What loops over columns see; each uses its own. */
+typedef struct counting {
+    const int64_t *row;
+    const int32_t *order;
+    double *entries;
+    int32_t *place;
+} counting;
+
+MPS_ROW void place_column(const int dim, const counting *f, int64_t k)
+{
+    (void)dim;
+    f->place[f->order[k]] = (int32_t)k;
+}
+MPS__LOOP_ANY(place_columns, place_column, counting)
 
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
 {
@@ -52,7 +78,8 @@ int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
     if (!r->value || !r->entries || !r->place || !r->owned.first) return MPS_PPE_NOMEM;
     r->bytes = r->owned.first + ranks + 1;
     r->count = r->bytes + ranks;
-    for (int64_t k = 0; k < r->columns; k++) r->place[r->table.order[k]] = (int32_t)k;
+    mps__loop_run_cheap(problem->parallel, &place_columns, MPS__ANY_DIM, r->columns,
+                        &(counting){.order = r->table.order, .place = r->place});
     return 0;
 }
 
@@ -78,7 +105,7 @@ static int gather(mps__grid_ranks *r, const void *own, size_t size, void *all)
 int mps__grid_ranks_share(mps__grid *g, const double *values)
 {
     mps__grid_ranks *r = &g->ranks;
-    memcpy(r->value, values, (size_t)r->n * sizeof *values);
+    mps__vectors_copy(mps__team(g->parallel, r->n), r->n, values, r->value);
     return r->table.share(r->table.host, r->value) ? MPS_PPE_BREAKDOWN : 0;
 }
 
@@ -89,10 +116,16 @@ int mps__grid_ranks_exchange(mps__grid *g)
     int64_t sent = 0, received = 0;
     for (int32_t k = 0; k < r->route.to_count; k++) sent += r->route.sent[k];
     for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
-    for (int64_t k = 0; k < sent; k++) r->out[k] = parts[r->send[k]];
+    if (g->device)
+        mps__grid_come(g, r->there.send, sent, 1, &parts, r->out);
+    else
+        for (int64_t k = 0; k < sent; k++) r->out[k] = parts[r->send[k]];
     if (r->table.exchange(r->table.host, &r->route, sizeof *parts, r->out, r->in))
         return MPS_PPE_BREAKDOWN;
-    for (int64_t k = 0; k < received; k++) parts[r->receive[k]] = r->in[k];
+    if (g->device)
+        mps__grid_go(g, r->there.receive, received, 1, &parts, r->in);
+    else
+        for (int64_t k = 0; k < received; k++) parts[r->receive[k]] = r->in[k];
     return 0;
 }
 
@@ -105,26 +138,45 @@ int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arra
     double *out = room(g, MPS__GRID_OUT, own * arrays, sizeof *out),
            *in = room(g, MPS__GRID_IN, all * arrays, sizeof *in);
     if (!out || !in) return MPS_PPE_NOMEM;
-    for (int64_t k = 0; k < own; k++)
+    if (g->device) mps__grid_come(g, r->there.owned + first, own, arrays, array, out);
+    for (int64_t k = 0; k < own && !g->device; k++)
         for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][owned->cell[first + k]];
     for (int32_t k = 0; k < r->table.ranks; k++)
         r->count[k] = owned->first[k + 1] - owned->first[k];
     if (gather(r, out, (size_t)arrays * sizeof *out, in)) return MPS_PPE_BREAKDOWN;
-    for (int64_t k = 0; k < all; k++)
+    if (g->device) mps__grid_go(g, r->there.owned, all, arrays, array, in);
+    for (int64_t k = 0; k < all && !g->device; k++)
         for (int a = 0; a < arrays; a++) array[a][owned->cell[k]] = in[k * arrays + a];
+    r->collected = in;
     return 0;
 }
 
 /* ---- cells ---- */
 
+MPS_ROW void count_row(const int dim, const counting *f, int64_t i)
+{
+    (void)dim;
+    f->entries[i] = (double)(f->row[i + 1] - f->row[i]);
+}
+MPS__LOOP_ANY(count_entries, count_row, counting)
+
 /* Conductivities and numbers of entries of all columns, the first into `value`. */
 static int share_rows(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_ranks *r = &g->ranks;
-    for (int64_t i = 0; i < r->n; i++)
-        r->entries[i] = (double)(problem->row[i + 1] - problem->row[i]);
+    mps__loop_run_cheap(problem->parallel, &count_entries, MPS__ANY_DIM, r->n,
+                        &(counting){.row = problem->row, .entries = r->entries});
     if (r->table.share(r->table.host, r->entries)) return MPS_PPE_BREAKDOWN;
     return mps__grid_ranks_share(g, g->point_kappa);
+}
+
+/* Those of this rank, on the host. NULL: out of memory */
+static const int64_t *own_keys(mps__grid *g, int64_t own)
+{
+    if (!g->device) return g->point_key;
+    int64_t *key = room(g, MPS__GRID_CELL_KEYS, own, sizeof *key);
+    if (key) mps__device_download(g->device, key, g->point_key, (size_t)own * sizeof *key);
+    return key;
 }
 
 /* Keys of the cells that hold rows of any rank, some more than once. */
@@ -133,23 +185,25 @@ static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int6
 {
     mps__grid_ranks *r = &g->ranks;
     mps__grid_place(g, problem, r->n);
-    const int64_t own = mps__grid_find(g, &g->level[0], r->n);
+    const int64_t own = g->device ? mps__grid_find_there(g, &g->level[0], r->n)
+                                  : mps__grid_find(g, &g->level[0], r->n);
     if (own < 0) return MPS_PPE_NOMEM;
+    const int64_t *found = own_keys(g, own);
     *keys = gather_count(r, own);
     if (*keys < 0) return MPS_PPE_BREAKDOWN;
     int64_t *all = room(g, MPS__GRID_KEYS, *keys, sizeof *all);
     *key = all;
-    return all ? gather(r, g->point_key, sizeof *all, all) : MPS_PPE_NOMEM;
+    return all && found ? gather(r, found, sizeof *all, all) : MPS_PPE_NOMEM;
 }
 
-/* Centres of the cells that have particles here. Returns their number, -1: out of memory. */
+/* Centres of the cells that have particles here; with a device, whose homes are not, of all. Returns their number, -1: out of memory. */
 static int64_t find_centres(mps__grid *g, double **centre)
 {
     mps__grid_ranks *r = &g->ranks;
     const mps__grid_level *l = &g->level[0];
-    int64_t seen = 0;
-    for (int64_t c = 0; c < l->cells; c++) r->owner[c] = UNSEEN;
-    for (int64_t i = 0; i < l->points; i++) {
+    int64_t seen = g->device ? l->cells : 0;
+    for (int64_t c = 0; c < l->cells; c++) r->owner[c] = g->device ? SEEN : UNSEEN;
+    for (int64_t i = 0; i < l->points && !g->device; i++) {
         seen += r->owner[l->home[i]] == UNSEEN;
         r->owner[l->home[i]] = SEEN;
     }
@@ -157,7 +211,7 @@ static int64_t find_centres(mps__grid *g, double **centre)
     if (!x) return -1;
     for (int64_t c = 0; c < l->cells; c++)
         for (int a = 0; a < g->dim && r->owner[c] == SEEN; a++)
-            *x++ = ((double)mps__grid_coordinate(l->key[c], a) + 0.5 + g->corner[a]) * g->size;
+            *x++ = ((double)mps__grid_coordinate(r->key[c], a) + 0.5 + g->corner[a]) * g->size;
     return seen;
 }
 
@@ -204,9 +258,8 @@ static int find_owners(mps__grid *g)
 /* Owner of the cell in direction k of a cell; -1: there is no cell. */
 static int32_t owner_about(const mps__grid *g, int64_t cell, int k)
 {
-    const mps__grid_level *l = &g->level[0];
-    const int32_t other = l->about[cell * (g->dim == 2 ? 9 : MPS__GRID_ABOUT) + k];
-    return other == l->cells ? -1 : g->ranks.owner[other];
+    const int32_t other = g->ranks.about[cell * mps__grid_all(g->dim) + k];
+    return other == g->level[0].cells ? -1 : g->ranks.owner[other];
 }
 
 /* Parts of the own cells that go to other ranks. Without a list: how many go to each, into `count`. Otherwise into the list, those for a
@@ -214,7 +267,7 @@ static int32_t owner_about(const mps__grid *g, int64_t cell, int k)
 static void list_sent(mps__grid *g, int64_t *list)
 {
     mps__grid_ranks *r = &g->ranks;
-    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int all = mps__grid_all(g->dim);
     const int32_t rank = r->table.rank;
     for (int64_t c = r->owned.first[rank]; c < r->owned.first[rank + 1]; c++)
         for (int k = 1; k < all; k++) {
@@ -232,7 +285,7 @@ static void list_sent(mps__grid *g, int64_t *list)
 static int64_t list_received(const mps__grid *g, const uint8_t *beside, int64_t most, int64_t *list)
 {
     const mps__grid_ranks *r = &g->ranks;
-    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int all = mps__grid_all(g->dim);
     int64_t listed = 0;
     for (int64_t c = 0; c < r->owned.first[r->table.ranks]; c++) {
         const int32_t cell = r->owned.cell[c];
@@ -250,12 +303,12 @@ static uint8_t *mark_beside(mps__grid *g)
 {
     const mps__grid_ranks *r = &g->ranks;
     const mps__grid_level *l = &g->level[0];
-    const int all = g->dim == 2 ? 9 : MPS__GRID_ABOUT;
+    const int all = mps__grid_all(g->dim);
     uint8_t *beside = room(g, MPS__GRID_MARKS, l->cells + 1, sizeof *beside);
     if (!beside) return NULL;
     memset(beside, 0, (size_t)l->cells + 1);
     for (int64_t c = r->owned.first[r->table.rank]; c < r->owned.first[r->table.rank + 1]; c++)
-        for (int k = 1; k < all; k++) beside[l->about[(int64_t)r->owned.cell[c] * all + k]] = 1;
+        for (int k = 1; k < all; k++) beside[r->about[(int64_t)r->owned.cell[c] * all + k]] = 1;
     return beside;
 }
 
@@ -298,10 +351,24 @@ static int find_parts(mps__grid *g)
     return list_received(g, beside, received, r->receive) == received ? 0 : MPS_PPE_BREAKDOWN;
 }
 
-int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem)
+/* Cells from the columns and the keys of all ranks. */
+static int cells_here(mps__grid *g, const mps_ppe_problem *problem, const int64_t *key,
+                      int64_t keys)
 {
     mps__grid_ranks *r = &g->ranks;
     mps__grid_level *l = &g->level[0];
+    mps__grid_place(g, problem, r->columns);
+    memcpy(g->point_key + r->columns, key, (size_t)keys * sizeof *key);
+    if (!mps__grid_cells(g, l, r->columns + keys)) return MPS_PPE_NOMEM;
+    l->points = r->columns; /* the keys behind them are those of cells, not of particles */
+    r->key = l->key;
+    r->about = l->about;
+    return 0;
+}
+
+int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem)
+{
+    mps__grid_ranks *r = &g->ranks;
     const int64_t *key, columns = r->columns;
     int64_t keys;
     int reason = share_rows(g, problem);
@@ -309,11 +376,10 @@ int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem)
     if (reason) return reason;
     if (columns + keys >= INT32_MAX) return MPS_PPE_BREAKDOWN;
     if (!mps__grid_reserve(g, columns + keys)) return MPS_PPE_NOMEM;
-    memcpy(g->point_kappa, r->value, (size_t)columns * sizeof *r->value);
-    mps__grid_place(g, problem, columns);
-    memcpy(g->point_key + columns, key, (size_t)keys * sizeof *key);
-    if (!mps__grid_cells(g, l, columns + keys)) return MPS_PPE_NOMEM;
-    l->points = columns; /* the keys behind them are those of cells, not of particles */
-    reason = find_owners(g);
-    return reason ? reason : find_parts(g);
+    mps__vectors_copy(mps__team(g->parallel, columns), columns, r->value, g->point_kappa);
+    reason = g->device ? mps__grid_cells_there(g, problem, key, keys)
+                       : cells_here(g, problem, key, keys);
+    if (!reason) reason = find_owners(g);
+    if (!reason) reason = find_parts(g);
+    return reason || !g->device ? reason : mps__grid_owners_go(g);
 }

@@ -107,6 +107,7 @@ typedef struct numbering {
     int64_t n, cells, red;
     const uint64_t *sorted;
     const int32_t *order;
+    const int64_t *point_key;
     const int64_t *number;
     int32_t *home, *list, *start, *next;
     int64_t *key;
@@ -161,21 +162,118 @@ MPS_ROW void neighbour_row(const int dim, const numbering *f, int64_t c)
 }
 MPS__LOOP(neighbour_rows, neighbour_row, numbering)
 
-void mps__grid_number(mps__grid *g, mps__grid_level *l)
+static numbering numbering_of(const mps__grid *g, const mps__grid_level *l)
 {
     const mps__grid_sorted *s = &g->sorted;
-    const numbering f = {.n = l->points,
-                         .cells = l->cells,
-                         .red = l->red,
-                         .sorted = s->key_now,
-                         .order = s->order_now,
-                         .number = s->number,
-                         .home = l->home,
-                         .list = l->list,
-                         .start = l->start,
-                         .next = l->next,
-                         .key = l->key,
-                         .link = l->link};
+    return (numbering){.n = l->points,
+                       .cells = l->cells,
+                       .red = l->red,
+                       .sorted = s->key_now,
+                       .order = s->order_now,
+                       .point_key = g->point_key,
+                       .number = s->number,
+                       .home = l->home,
+                       .list = l->list,
+                       .start = l->start,
+                       .next = l->next,
+                       .key = l->key,
+                       .link = l->link};
+}
+
+void mps__grid_number(mps__grid *g, mps__grid_level *l)
+{
+    const numbering f = numbering_of(g, l);
     mps__loop_run(g->parallel, &number_rows, MPS__ANY_DIM, l->points, &f);
     mps__loop_run(g->parallel, &neighbour_rows, g->dim, l->cells, &f);
+}
+
+/* ---- many ranks: the cells are those of all ranks, the points those of this one ---- */
+
+/* Keys of the cells, in whose order points are: in place of those of the points. */
+MPS_ROW void key_row(const int dim, const numbering *f, int64_t a)
+{
+    (void)dim;
+    if (f->sorted[a] == no_cell || (a > 0 && f->sorted[a] == f->sorted[a - 1])) return;
+    f->key[f->number[a] - 1] = (int64_t)(f->sorted[a] & ~black);
+}
+MPS__LOOP_ANY(key_rows, key_row, numbering)
+
+int64_t mps__grid_find_there(mps__grid *g, mps__grid_level *l, int64_t points)
+{
+    l->points = points;
+    mps__grid_sort(g, l);
+    mps__grid_count(g, l);
+    numbering f = numbering_of(g, l);
+    f.key = g->point_key;
+    mps__loop_run(g->parallel, &key_rows, MPS__ANY_DIM, points, &f);
+    return l->cells;
+}
+
+MPS_ROW void home_row(const int dim, const numbering *f, int64_t i)
+{
+    (void)dim;
+    f->home[i] = cell_of(f, f->point_key[i], -1);
+}
+MPS__LOOP_ANY(home_rows, home_row, numbering)
+
+void mps__grid_home(mps__grid *g, mps__grid_level *l)
+{
+    const numbering f = numbering_of(g, l);
+    mps__loop_run(g->parallel, &home_rows, MPS__ANY_DIM, l->points, &f);
+}
+
+/* What loops over columns in the order of the particles see. */
+typedef struct listing {
+    const int32_t *column, *owner, *home;
+    const int64_t *key;
+    int64_t *point_key;
+    int32_t rank;
+    int64_t n, turns;
+    const uint64_t *sorted;
+    const int32_t *order;
+    const int64_t *number;
+    int32_t *list, *start;
+} listing;
+
+/* Those of other ranks' cells have no key, so they stand behind all others. */
+MPS_ROW void choose_row(const int dim, const listing *f, int64_t k)
+{
+    const int32_t home = f->home[f->column[k]];
+    (void)dim;
+    f->point_key[k] = f->owner[home] == f->rank ? f->key[home] : -1;
+}
+MPS__LOOP_ANY(choose_rows, choose_row, listing)
+
+MPS_ROW void list_row(const int dim, const listing *f, int64_t a)
+{
+    const int64_t turn = f->number[a] - 1;
+    (void)dim;
+    if (f->sorted[a] == no_cell) return;
+    f->list[a] = f->column[f->order[a]];
+    if (a == 0 || f->number[a - 1] <= turn) f->start[turn] = (int32_t)a;
+    if (turn == f->turns - 1 && (a == f->n - 1 || f->sorted[a + 1] == no_cell))
+        f->start[f->turns] = (int32_t)(a + 1);
+}
+MPS__LOOP_ANY(list_rows, list_row, listing)
+
+void mps__grid_list_own(mps__grid *g, mps__grid_level *l)
+{
+    const mps__grid_ranks *r = &g->ranks;
+    listing f = {.column = r->table.order,
+                 .owner = r->there.owner,
+                 .home = l->home,
+                 .key = l->key,
+                 .point_key = g->point_key,
+                 .rank = r->table.rank,
+                 .n = l->points,
+                 .turns = g->turns,
+                 .number = g->sorted.number,
+                 .list = l->list,
+                 .start = l->start};
+    mps__device_clear(g->device, l->start, (size_t)(l->cells + 1) * sizeof *l->start);
+    mps__loop_run(g->parallel, &choose_rows, MPS__ANY_DIM, l->points, &f);
+    mps__grid_sort(g, l);
+    f.sorted = g->sorted.key_now;
+    f.order = g->sorted.order_now;
+    mps__loop_run(g->parallel, &list_rows, MPS__ANY_DIM, l->points, &f);
 }

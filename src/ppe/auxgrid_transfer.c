@@ -51,10 +51,14 @@ static void list_turns(mps__grid *g, const mps__grid_ranks *r)
     }
 }
 
-/* A device has the list already. */
+/* A device has the list already, but of a rank among many. */
 bool mps__grid_list(mps__grid *g)
 {
     const int64_t cells = g->level[0].cells;
+    if (g->device && mps__grid_many(g)) {
+        mps__grid_list_own(g, &g->level[0]);
+        return true;
+    }
     g->turns = cells;
     if (g->device) return true;
     g->turn = mps__grid_room_of(g, &g->turn_room, cells, sizeof *g->turn);
@@ -230,6 +234,23 @@ MPS_ROW void sum_turn(const int dim, const adding *t, int64_t turn)
 }
 MPS__LOOP(sum_turns, sum_turn, adding)
 
+/* A device has threads for the cells of all ranks, whose values come from their owners later. */
+static void clear_parts(const mps__grid *g, const mps_parallel *team, const adding *t)
+{
+    if (g->device)
+        mps__vectors_clear(team, (g->level[0].cells + 1) * mps__grid_all(g->dim), t->parts);
+    else
+        mps__loop_run(team, &clear_turns, g->dim, g->turns, t);
+}
+
+static void sum_parts(const mps__grid *g, const mps_parallel *team, const adding *t)
+{
+    if (g->device)
+        mps__loop_run(team, &sum_cells, g->dim, g->level[0].cells, t);
+    else
+        mps__loop_run(team, &sum_turns, g->dim, g->turns, t);
+}
+
 static int restrict_ranks(mps__grid *g, const double *values, double scale)
 {
     mps__grid_level *l = &g->level[0];
@@ -237,11 +258,11 @@ static int restrict_ranks(mps__grid *g, const double *values, double scale)
     const adding t = adding_of(g, g->ranks.value, scale);
     int reason = mps__grid_ranks_share(g, values);
     if (reason) return reason;
-    mps__loop_run(team, &clear_turns, g->dim, g->turns, &t);
+    clear_parts(g, team, &t);
     mps__loop_run(team, &add_turns, g->dim, g->turns, &t);
     reason = mps__grid_ranks_exchange(g);
     if (reason) return reason;
-    mps__loop_run(team, &sum_turns, g->dim, g->turns, &t);
+    sum_parts(g, team, &t);
     /* the cycle on a divided grid takes the right side of the own cells */
     return g->ranks.divided > 0 ? 0 : mps__grid_ranks_collect(g, &g->ranks.owned, 1, &l->b);
 }

@@ -195,14 +195,23 @@ static void add_faces(void *into, const void *from)
     memcpy(into, &a, sizeof a);
 }
 
-/* Sums of all chunks into the first, then over the ranks. A pair of two ranks is a wire of the particle that comes first. */
-static int add_ranks(const mps_ppe_problem *problem, wiring *y)
+/* Sums of all chunks into the first, then over the ranks, on the host. A pair of two ranks is a wire of the particle that comes first. */
+static int add_ranks(mps__grid *g, const mps_ppe_problem *problem, wiring *y)
 {
-    for (int64_t f = 0; f < y->count; f++) y->faces[f] = sum_of(y, f);
+    const size_t bytes = (size_t)y->count * sizeof *y->faces;
+    wiring here = *y;
+    if (g->device) {
+        here.faces = mps__grid_ranks_room(g, MPS__GRID_FACES, y->count, sizeof *y->faces);
+        if (!here.faces) return MPS_PPE_NOMEM;
+        memset(here.faces, 0, bytes);
+        mps__device_download(g->device, here.faces, y->faces, bytes);
+    }
+    for (int64_t f = 0; f < y->count; f++) here.faces[f] = sum_of(&here, f);
     y->chunks = 1;
-    return mps_ppe_reduce(problem, (int32_t)y->count, sizeof *y->faces, y->faces, add_faces)
-               ? MPS_PPE_BREAKDOWN
-               : 0;
+    if (mps_ppe_reduce(problem, (int32_t)y->count, sizeof *y->faces, here.faces, add_faces))
+        return MPS_PPE_BREAKDOWN;
+    if (g->device) mps__device_upload(g->device, y->faces, here.faces, bytes);
+    return 0;
 }
 
 /* On a device all rows add to the same sums. */
@@ -238,7 +247,7 @@ int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem)
         return MPS_PPE_NOMEM;
     y.faces = g->parts;
     add_rows(g, team, &y);
-    const int reason = mps__grid_many(g) ? add_ranks(problem, &y) : 0;
+    const int reason = mps__grid_many(g) ? add_ranks(g, problem, &y) : 0;
     if (reason) return reason;
     mps__loop_run(team, &set_link_rows, g->dim, l->cells, &y);
     return 0;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The pressure equation on many ranks: what solvers call to exchange and to add up. */
 #include "ppe.h"
+#include "loop.h"
 
 static int share_columns(void *host, double *x)
 {
@@ -51,11 +52,41 @@ static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
     return e->owner(e->world, m, x, rank) < 0;
 }
 
+/* What a loop over columns of a device sees. */
+typedef struct ordering {
+    int64_t n, columns;
+    const int32_t *particle;
+    int32_t *order;
+} ordering;
+
+/* A column stands behind its like before it, and behind the others whose particles come first. */
+MPS_ROW void order_row(const int dim, const ordering *f, int64_t k)
+{
+    const bool own = k < f->n;
+    const int64_t begin = own ? f->n : 0;
+    int64_t lo = begin, hi = own ? f->columns : f->n;
+    (void)dim;
+    while (lo < hi) {
+        const int64_t other = lo + (hi - lo) / 2;
+        if (f->particle[other] < f->particle[k])
+            lo = other + 1;
+        else
+            hi = other;
+    }
+    f->order[k - (own ? 0 : f->n) + lo - begin] = (int32_t)k;
+}
+MPS__LOOP_ANY(order_rows, order_row, ordering)
+
 /* Rows and columns of other ranks, merged by their particles. */
 void mps__ppe_ranks_order(mps__ppe *e)
 {
     int64_t row = 0, column = e->n;
     if (e->ranks.ranks < 2) return;
+    if (e->device) {
+        mps__loop_run(e->parallel, &order_rows, MPS__ANY_DIM, e->columns,
+                      &(ordering){e->n, e->columns, e->particle, e->order});
+        return;
+    }
     for (int64_t k = 0; k < e->columns; k++) {
         const bool own = column == e->columns ||
                          (row < e->n && e->particle[row] < e->particle[column]);
@@ -88,6 +119,6 @@ mps_status mps__ppe_ranks_set(mps__ppe *e)
         e->ranks.first += k < r->rank ? rows[k] : 0;
         e->ranks.rows += rows[k];
     }
-    if (!e->device) mps__ppe_ranks_order(e);
+    mps__ppe_ranks_order(e);
     return mps__ranks_status(r);
 }

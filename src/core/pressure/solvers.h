@@ -66,7 +66,6 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
 
 /* Whether solver and preconditioner have loops there; whether an equation is solved there. */
 bool mps__solvers_known_there(const mps__solvers *s);
-bool mps__solvers_known_on_ranks(const mps__solvers *s);
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
 /* Solve it there. Its arrays and `p` are where its parallel-for runs: on the host, or there already. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,

@@ -22,16 +22,10 @@ bool mps__solvers_known_there(const mps__solvers *s)
            (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
 }
 
-bool mps__solvers_known_on_ranks(const mps__solvers *s)
-{
-    return mps__solvers_known_there(s) && !(s->pc && is_auxgrid(s->pc));
-}
-
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
 {
     /* ranks exchange where the equation is */
-    const bool known = e->ranks ? mps__solvers_known_on_ranks(s) && mps__device_of(e->parallel)
-                                : mps__solvers_known_there(s);
+    const bool known = mps__solvers_known_there(s) && (!e->ranks || mps__device_of(e->parallel));
     return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 

@@ -277,9 +277,7 @@ static void tell_apart(const mps__step *q)
     const mps__solvers *s = &w->solvers;
     char why[2 * MPS__NAME_SIZE + 40] = "";
     if (t->told_solution == w->host.plan.changes) return;
-    if (mps__ranks_many(&w->ranks) && !mps__solvers_known_on_ranks(s))
-        snprintf(why, sizeof why, "on many ranks devices solve it with 'jacobi' or 'none'");
-    else if (q->load.what == MPS_LOAD_MASS)
+    if (q->load.what == MPS_LOAD_MASS)
         snprintf(why, sizeof why, "the added mass is asked for");
     else if (!mps__solvers_known_there(s))
         snprintf(why, sizeof why, "solver '%s' with preconditioner '%s'", s->use->name,
