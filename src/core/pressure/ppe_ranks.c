@@ -6,7 +6,10 @@
 static int share_columns(void *host, double *x)
 {
     const mps__ppe *e = host;
-    return mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x) < 0;
+    const mps_status status = mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x);
+    /* at once: from here on this rank and the others make different calls */
+    mps__ranks_tell(e->ghosts->ranks, status);
+    return status < 0;
 }
 
 static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
