@@ -154,7 +154,8 @@ typedef struct mps__grid_ranks {
     int32_t *owner;        /* [cells] of it */
     const int64_t *key;    /* [cells] of it, on the host */
     const int32_t *about;  /* [cells * 3^dim] the same */
-    const double *collected; /* what the last collection gave, cell by cell in the order of `owned` */
+    const double
+        *collected; /* what the last collection gave, cell by cell in the order of `owned` */
     mps__grid_there there;
     double *out, *in;
     int64_t *send,

@@ -96,7 +96,8 @@ int mps__grid_owners_go(mps__grid *g)
     mps__grid_ranks *r = &g->ranks;
     mps__grid_there *t = &r->there;
     const int64_t cells = g->level[0].cells, first = r->owned.first[r->table.rank];
-    int64_t sent = 0, received = 0, *wide = mps__grid_ranks_room(g, MPS__GRID_WIDE, cells, sizeof *wide);
+    int64_t sent = 0, received = 0,
+            *wide = mps__grid_ranks_room(g, MPS__GRID_WIDE, cells, sizeof *wide);
     for (int32_t k = 0; k < r->route.to_count; k++) sent += r->route.sent[k];
     for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
     for (int64_t c = 0; c < cells && wide; c++) wide[c] = r->owned.cell[c];

@@ -180,10 +180,11 @@ static void refuse(void *argument, int32_t rank)
     assert_int_equal(k->device[rank].ended, rank == 0);
     shadow_attach(&k->device[rank], sim);
     assert_int_equal(mps_step(sim, 1, NULL), MPS_OK);
-    if (k->launch == 0) mps__ghosts_leave(&sim->world.ghosts); /* what they have there is made again */
+    if (k->launch == 0)
+        mps__ghosts_leave(&sim->world.ghosts); /* what they have there is made again */
     k->device[rank].refuses = k->launch == 0 && rank == 0;
-    k->device[rank].fails_at =
-        rank == 0 && k->launch > 0 ? k->device[rank].launches + k->launch : 0;
+    k->device[rank].fails_at = rank == 0 && k->launch > 0 ? k->device[rank].launches + k->launch
+                                                          : 0;
     k->status[rank][2] = mps_step(sim, 1, NULL);
     snprintf(k->error[rank][2], TEXT, "%s", mps_sim_error(sim));
     mps_sim_destroy(sim);
@@ -203,7 +204,8 @@ static void check_refusals(int launch)
         assert_int_equal(k->status[r][1], MPS_E_PLUGIN);
         assert_non_null(strstr(k->error[r][1], "does not open"));
         assert_int_equal(k->status[r][2], r == 0 ? MPS_E_PLUGIN : MPS_E_RANKS);
-        assert_non_null(strstr(k->error[r][2], launch == 0 ? "has no room" : "as the test wants it"));
+        assert_non_null(
+            strstr(k->error[r][2], launch == 0 ? "has no room" : "as the test wants it"));
         assert_int_equal(k->device[r].rooms, 0);
     }
     free(k);
@@ -224,7 +226,7 @@ int main(void)
                                                cmocka_unit_test(several_grids)};
     for (int k = 0; k < SCENES; k++)
         tests[FIRST + k] = (struct CMUnitTest){.name = scenes[k].name,
-                                           .test_func = test_scene,
-                                           .initial_state = (void *)(uintptr_t)&scenes[k]};
+                                               .test_func = test_scene,
+                                               .initial_state = (void *)(uintptr_t)&scenes[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -29,12 +29,23 @@ static const char *const imps_models[] = {"surface.asymmetry",
                                           "shift.tangential",
                                           NULL};
 static const changed imps_settings[] = {{"collision.pair", "restitution", 0}, {NULL, NULL, 0}};
-static const char *const mmps_models[] = {
-    "surface.detached",  "reference.lid",    "wall.half",          "moments.bounded",
-    "density.interface", "viscosity.pair",   "dissipation.radial", "tension.jump",
-    "source.volume",     "gas.compressible", "cavitation.vapour",  "gradient.corrected",
-    "load.reaction",     "drag.lone",        "collision.pair",     "shift.tangential",
-    NULL};
+static const char *const mmps_models[] = {"surface.detached",
+                                          "reference.lid",
+                                          "wall.half",
+                                          "moments.bounded",
+                                          "density.interface",
+                                          "viscosity.pair",
+                                          "dissipation.radial",
+                                          "tension.jump",
+                                          "source.volume",
+                                          "gas.compressible",
+                                          "cavitation.vapour",
+                                          "gradient.corrected",
+                                          "load.reaction",
+                                          "drag.lone",
+                                          "collision.pair",
+                                          "shift.tangential",
+                                          NULL};
 static const changed mmps_settings[] = {
     {"moments.bounded", "torn", 0.7},     {"viscosity.pair", "stress", 1},
     {"source.volume", "clip", 0.5},       {"source.volume", "rapid", 3},

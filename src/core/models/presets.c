@@ -31,28 +31,18 @@ static const mps__preset_line imps[] = {
     {"shift.tangential", NULL, 0},    {NULL, NULL, 0}};
 
 /* Several phases, phase 1 a gas: the operators of imps, stable and accurate at 1000 : 1. docs/explanations/two_phases.md. */
-static const mps__preset_line mmps[] = {{"surface.detached", NULL, 0},
-                                        {"wall.half", NULL, 0},
-                                        {"density.interface", NULL, 0},
-                                        {"moments.bounded", NULL, 0},
-                                        {"moments.bounded", "torn", 0.7},
-                                        {"viscosity.pair", NULL, 0},
-                                        {"viscosity.pair", "stress", 1},
-                                        {"dissipation.radial", NULL, 0},
-                                        {"tension.jump", NULL, 0},
-                                        {"source.volume", NULL, 0},
-                                        {"source.volume", "clip", 0.5},
-                                        {"source.volume", "rapid", 3},
-                                        {"gas.compressible", NULL, 0},
-                                        {"reference.lid", NULL, 0},
-                                        {"cavitation.vapour", NULL, 0},
-                                        {"gradient.corrected", NULL, 0},
-                                        {"load.reaction", NULL, 0},
-                                        {"drag.lone", NULL, 0},
-                                        {"collision.pair", NULL, 0},
-                                        {"collision.pair", "restitution", 0},
-                                        {"shift.tangential", NULL, 0},
-                                        {NULL, NULL, 0}};
+static const mps__preset_line mmps[] = {
+    {"surface.detached", NULL, 0},    {"wall.half", NULL, 0},
+    {"density.interface", NULL, 0},   {"moments.bounded", NULL, 0},
+    {"moments.bounded", "torn", 0.7}, {"viscosity.pair", NULL, 0},
+    {"viscosity.pair", "stress", 1},  {"dissipation.radial", NULL, 0},
+    {"tension.jump", NULL, 0},        {"source.volume", NULL, 0},
+    {"source.volume", "clip", 0.5},   {"source.volume", "rapid", 3},
+    {"gas.compressible", NULL, 0},    {"reference.lid", NULL, 0},
+    {"cavitation.vapour", NULL, 0},   {"gradient.corrected", NULL, 0},
+    {"load.reaction", NULL, 0},       {"drag.lone", NULL, 0},
+    {"collision.pair", NULL, 0},      {"collision.pair", "restitution", 0},
+    {"shift.tangential", NULL, 0},    {NULL, NULL, 0}};
 
 /* W22 (10)-(26) literally; what the paper leaves open is a setting: the weight of a particle's own density, the distance of
  * collisions. */
