@@ -11,9 +11,12 @@
 
 enum { TEXT = 300, MOST = 4 };
 
+/* The scene as it is; with liquid that fills the tank, so that nothing gives its pressures a level; with gas.pocket that finds no pocket. */
+enum { AS_IT_IS, FULL, WITHOUT_POCKET };
+
 typedef struct run {
     const scene *scene;
-    bool full;             /* the liquid fills the tank: nothing gives its pressures a level */
+    int another;           /* AS_IT_IS, FULL or WITHOUT_POCKET */
     kit_engine_team *team; /* NULL: alone, without a device */
     record *records;       /* [steps] */
     shadow device[MOST];
@@ -24,7 +27,8 @@ static mps_status build(const run *k, mps_sim *sim)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.45, 0.4};
     MPS__TRY(scene_build(sim, k->scene));
-    return k->full ? mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) : MPS_OK;
+    if (k->another == WITHOUT_POCKET) return mps_model_use(sim, "gas.pocket");
+    return k->another == FULL ? mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) : MPS_OK;
 }
 
 /* A scene with a device, whose handle has memory that is closed while loops run. */
@@ -60,12 +64,12 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim_destroy(sim);
 }
 
-static run *run_scene(const scene *s, bool full, int32_t ranks)
+static run *run_scene(const scene *s, int another, int32_t ranks)
 {
     run *k = calloc(1, sizeof *k);
     assert_non_null(k);
     k->scene = s;
-    k->full = full;
+    k->another = another;
     k->records = calloc((size_t)s->steps, sizeof *k->records);
     assert_non_null(k->records);
     if (ranks > 1) {
@@ -87,9 +91,9 @@ static void give_back(run *k)
 }
 
 /* `there`: the devices solve the equation, else the hosts. */
-static void compare(const scene *s, bool full, int32_t ranks, bool there)
+static void compare(const scene *s, int another, int32_t ranks, bool there)
 {
-    run *alone = run_scene(s, full, 1), *many = run_scene(s, full, ranks);
+    run *alone = run_scene(s, another, 1), *many = run_scene(s, another, ranks);
     char text[TEXT];
     for (int k = 1; k < s->steps; k += 3)
         if (!record_same(&alone->records[k], &many->records[k], text, sizeof text))
@@ -110,9 +114,9 @@ static void test_scene(void **state)
     const scene *of = *state;
     scene s = *of;
     const bool jacobi = s.preconditioner && strcmp(s.preconditioner, "jacobi") == 0;
-    if (scene_runs(of, 0, 2)) compare(&s, false, 2, jacobi);
+    if (scene_runs(of, 0, 2)) compare(&s, AS_IT_IS, 2, jacobi);
     s.preconditioner = "jacobi";
-    if (scene_runs(of, 1, 2)) compare(&s, false, MOST, true);
+    if (scene_runs(of, 1, 2)) compare(&s, AS_IT_IS, MOST, true);
 }
 
 /* The hosts make such an equation solvable, and solve it. */
@@ -122,7 +126,16 @@ static void pressures_without_a_level(void **state)
     (void)state;
     s.steps = 12;
     s.preconditioner = "jacobi";
-    compare(&s, true, 3, false);
+    compare(&s, FULL, 3, false);
+}
+
+/* All ranks wait in the same steps, and look in the same steps. */
+static void gas_without_a_pocket(void **state)
+{
+    scene s = *scene_named("roll_2d");
+    (void)state;
+    s.steps = 24;
+    compare(&s, WITHOUT_POCKET, 2, false);
 }
 
 /* ---- refusals ---- */
@@ -211,10 +224,11 @@ static void devices_of_all_or_none(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[2 + SCENES] = {cmocka_unit_test(devices_of_all_or_none),
-                                           cmocka_unit_test(pressures_without_a_level)};
+    struct CMUnitTest tests[3 + SCENES] = {cmocka_unit_test(devices_of_all_or_none),
+                                           cmocka_unit_test(pressures_without_a_level),
+                                           cmocka_unit_test(gas_without_a_pocket)};
     for (int k = 0; k < SCENES; k++)
-        tests[2 + k] = (struct CMUnitTest){.name = scenes[k].name,
+        tests[3 + k] = (struct CMUnitTest){.name = scenes[k].name,
                                            .test_func = test_scene,
                                            .initial_state = (void *)(uintptr_t)&scenes[k]};
     return cmocka_run_group_tests(tests, NULL, NULL);
