@@ -122,7 +122,7 @@ typedef struct mps_device_ops {
 typedef struct mps_device_info {
     /** Set by mps_device_info_init(), or sizeof(mps_device_info). */
     uint32_t struct_size;
-    /** Calls of the step, passes of the library and verbs of models, that ran on the host. */
+    /** Calls of the step, passes and verbs of models, that ran on the host, wholly or in part. */
     int32_t host_calls;
     /** Name of the device; NULL: the handle has none. */
     const char *name;

@@ -166,15 +166,15 @@ static int find_pockets(mps_stage *s)
 {
     mps__pocket_head head = {0};
     mps__pocket_now now = {0};
-    mps__pocket_faces f = {.velocity = s->data[FIND_VELOCITY],
-                           .region = s->data[FIND_REGION],
-                           .row = s->data[FIND_ROW],
-                           .slope = s->data[FIND_SLOPE],
-                           .number = s->data[FIND_NUMBER]};
+    mps__pocket_faces f = {0};
     bool waits, any = false, had = !is_idle(s);
-    if (mps__pocket_wait(s, &f, &waits)) return 1;
+    if (mps__pocket_wait(s, s->data[FIND_VELOCITY], s->data[FIND_REGION], &waits)) return 1;
     if (waits) return 0;
     if (mps__pocket_look(s, &f)) return 1;
+    f.region = s->data[FIND_REGION];
+    f.row = s->data[FIND_ROW];
+    f.slope = s->data[FIND_SLOPE];
+    f.number = s->data[FIND_NUMBER];
     double *geometry = mps_stage_scratch(s, f.voids.count + 1);
     double *pressure = mps_stage_scratch(s, 2 * (int64_t)f.voids.count + 1);
     if (!geometry || !pressure) return 1;
@@ -369,13 +369,13 @@ static const mps_use book_uses[BOOK_USES] = {
  * fluxes, and what liquid gains is what the gas has lost. */
 static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
-    mps__pocket_faces f = {.region = s->data[BOOK_REGION],
-                           .velocity = s->data[BOOK_VELOCITY],
-                           .correction = s->data[BOOK_CORRECTION],
-                           .aside = s->view->setting[MPS__POCKET_ULLAGE] > 0
-                                        ? -1
-                                        : (int32_t)head->open}; /* the ambient does no work */
+    mps__pocket_faces f = {0};
     if (mps__pocket_look(s, &f)) return 1;
+    f.region = s->data[BOOK_REGION];
+    f.velocity = s->data[BOOK_VELOCITY];
+    f.correction = s->data[BOOK_CORRECTION];
+    /* the ambient does no work */
+    f.aside = s->view->setting[MPS__POCKET_ULLAGE] > 0 ? -1 : (int32_t)head->open;
     double *flux = mps_stage_scratch(s, f.voids.count + 1);
     double *fluid = mps_stage_scratch(s, f.voids.count + 1);
     if (!flux || !fluid || mps__pocket_sort(s, &f)) return 1;

@@ -8,8 +8,13 @@
 
 static const double MOST = 16;
 
+typedef struct surface {
+    const double *velocity;
+    const int32_t *region;
+} surface;
+
 /* Squared velocity of the surface of the liquid relative to the tank. */
-MPS_ROW void raise_speed(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
+MPS_ROW void raise_speed(const int dim, const mps_view *v, const surface *f, int64_t i,
                          double *most)
 {
     const double *u = f->velocity + i * dim;
@@ -19,22 +24,22 @@ MPS_ROW void raise_speed(const int dim, const mps_view *v, const mps__pocket_fac
     for (int d = 0; d < dim; d++) square += (u[d] - tank[d]) * (u[d] - tank[d]);
     most[0] = mps_larger(most[0], square);
 }
-MPS_SUMS(raise_speeds, raise_speed, mps__pocket_faces)
+MPS_SUMS(raise_speeds, raise_speed, surface)
 
 /* How far the surface has moved since the last look, at most. */
-static double moved_since(mps_stage *s, const mps__pocket_faces *f, const mps__pocket_head *head)
+static double moved_since(mps_stage *s, const surface *f, const mps__pocket_head *head)
 {
     double most = 0;
     mps_stage_max(s, 1, &raise_speeds, f, &most);
     return head->moved + head->dt * sqrt(mps_larger(0, most));
 }
 
-int mps__pocket_wait(mps_stage *s, const mps__pocket_faces *f, bool *waits)
+int mps__pocket_wait(mps_stage *s, const double *velocity, const int32_t *region, bool *waits)
 {
     const mps__pocket_old old = mps__pocket_read(s);
     *waits = old.head && old.head->pockets == 0 && old.head->waited + 1 < MOST;
     if (!*waits) return 0;
-    const double moved = moved_since(s, f, old.head);
+    const double moved = moved_since(s, &(surface){velocity, region}, old.head);
     *waits = moved < s->view->dp;
     if (!*waits) return 0;
     mps__pocket_head *head = mps__pocket_open(s, NULL);

@@ -109,9 +109,9 @@ int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common)
 typedef struct rows {
     const int64_t *row;
     const double *diagonal, *shift;
-    double square;         /* mean of r_ij^2, */
-    const double *squared; /* or where a device has it */
-    double *kappa;
+    double square;           /* mean of r_ij^2, */
+    const double *squared;   /* or where a device has it */
+    double *kappa, *entries; /* NULL: nobody asks for it */
 } rows;
 
 /* Sums: of kappa, of its inverse, of rows; the maximum: kappa. A lone pair at the end of the kernel says little. */
@@ -123,6 +123,7 @@ MPS_ROW void measure_row(const int dim, const rows *f, int64_t i, double *values
                  kappa = entries > 0 ? flux / (double)entries : 0;
     (void)dim;
     f->kappa[i] = kappa;
+    if (f->entries) f->entries[i] = (double)entries;
     if (kappa > values[3]) values[3] = kappa;
     if (entries < FEW_ENTRIES || !(kappa > 0)) return;
     values[0] = kappa;
@@ -146,7 +147,12 @@ static void take_measure(mps__grid *g, const mps_ppe_problem *problem, const mps
 /* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square)
 {
-    const rows f = {problem->row, problem->diagonal, problem->shift, square, NULL, g->point_kappa};
+    const rows f = {.row = problem->row,
+                    .diagonal = problem->diagonal,
+                    .shift = problem->shift,
+                    .square = square,
+                    .kappa = g->point_kappa,
+                    .entries = mps__grid_many(g) ? g->ranks.entries : NULL};
     mps_exact sums[3] = {{{0}, 0, 0}};
     double most = 0;
     mps__values_run(mps__team(problem->parallel, problem->n), &measure_rows, MPS__ANY_DIM,
@@ -206,8 +212,11 @@ static void queue_questions(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_told *to = g->told;
     const looking f = looking_of(problem);
-    const rows r = {problem->row, problem->diagonal, problem->shift, 0,
-                    &to->square,  g->point_kappa};
+    const rows r = {.row = problem->row,
+                    .diagonal = problem->diagonal,
+                    .shift = problem->shift,
+                    .squared = &to->square,
+                    .kappa = g->point_kappa};
     mps__values_gather(g->device, &look_rows, problem->dim, problem->n, &f, &to->look);
     mps__loop_run(problem->parallel, &average_rows, MPS__ANY_DIM, 1,
                   &(averaging){to->look.sums, &to->square});

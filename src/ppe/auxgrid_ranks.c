@@ -46,20 +46,18 @@ void mps__grid_ranks_release(mps__grid *g)
     g->ranks = (mps__grid_ranks){.whole = whole};
 }
 
-/* What loops over columns see; each uses its own. */
-typedef struct counting {
-    const int64_t *row;
+/* What a loop over columns sees. */
+typedef struct placing {
     const int32_t *order;
-    double *entries;
     int32_t *place;
-} counting;
+} placing;
 
-MPS_ROW void place_column(const int dim, const counting *f, int64_t k)
+MPS_ROW void place_column(const int dim, const placing *f, int64_t k)
 {
     (void)dim;
     f->place[f->order[k]] = (int32_t)k;
 }
-MPS__LOOP_ANY(place_columns, place_column, counting)
+MPS__LOOP_ANY(place_columns, place_column, placing)
 
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
 {
@@ -79,7 +77,7 @@ int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
     r->bytes = r->owned.first + ranks + 1;
     r->count = r->bytes + ranks;
     mps__loop_run_cheap(problem->parallel, &place_columns, MPS__ANY_DIM, r->columns,
-                        &(counting){.order = r->table.order, .place = r->place});
+                        &(placing){r->table.order, r->place});
     return 0;
 }
 
@@ -153,19 +151,10 @@ int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arra
 
 /* ---- cells ---- */
 
-MPS_ROW void count_row(const int dim, const counting *f, int64_t i)
-{
-    (void)dim;
-    f->entries[i] = (double)(f->row[i + 1] - f->row[i]);
-}
-MPS__LOOP_ANY(count_entries, count_row, counting)
-
 /* Conductivities and numbers of entries of all columns, the first into `value`. */
-static int share_rows(mps__grid *g, const mps_ppe_problem *problem)
+static int share_rows(mps__grid *g)
 {
     mps__grid_ranks *r = &g->ranks;
-    mps__loop_run_cheap(problem->parallel, &count_entries, MPS__ANY_DIM, r->n,
-                        &(counting){.row = problem->row, .entries = r->entries});
     if (r->table.share(r->table.host, r->entries)) return MPS_PPE_BREAKDOWN;
     return mps__grid_ranks_share(g, g->point_kappa);
 }
@@ -371,7 +360,7 @@ int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem)
     mps__grid_ranks *r = &g->ranks;
     const int64_t *key, columns = r->columns;
     int64_t keys;
-    int reason = share_rows(g, problem);
+    int reason = share_rows(g);
     if (!reason) reason = collect_keys(g, problem, &key, &keys);
     if (reason) return reason;
     if (columns + keys >= INT32_MAX) return MPS_PPE_BREAKDOWN;

@@ -15,7 +15,7 @@ static void run_rank(void *argument, int32_t rank)
     ranks_run *k = t->run;
     mps_sim *sim = NULL;
     mps_device_info info = {.struct_size = sizeof info};
-    mps_status status = scene_start(scene_named("air_2d"), t->team, rank, &sim);
+    mps_status status = scene_start(scene_named(k->scene), t->team, rank, &sim);
     if (status == MPS_OK) opencl_attach(k->device[rank], sim);
     for (int s = 0; s < STEPS && status >= 0; s++) status = mps_step(sim, 1, NULL);
     if (status >= 0) status = mps_sim_device_info(sim, &info);

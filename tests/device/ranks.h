@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A scene on two ranks, threads of this program, with a device each. */
+/* Scenes on two ranks, threads of this program, with a device each. */
 #ifndef DEVICE_RANKS_H
 #define DEVICE_RANKS_H
 
 #include "opencl.h"
 
 typedef struct ranks_run {
+    const char *scene;
     opencl *device[2];
     mps_status status[2];
     int64_t launches[2]; /* of the last step */

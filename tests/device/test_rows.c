@@ -90,6 +90,16 @@ static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
                                        "levels__lacking_rows in 2-D",
                                        "jacobi__invert_rows_there in 2-D"};
 
+static void assert_have_run(const char *const *loops, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        bool there = false;
+        for (int m = 0; m < device.kernels && !there; m++)
+            there = strstr(device.kernel[m].name, loops[k]) && device.kernel[m].launches > 0;
+        if (!there) fail_msg("%s has not run", loops[k]);
+    }
+}
+
 /* So many cells that auxgrid has a second grid; and jacobi. */
 static mps_sim *fine(int32_t dim, const char *preconditioner)
 {
@@ -106,12 +116,7 @@ static void several_grids(void **state)
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) compare(fine(dim, "auxgrid"), fine(dim, "auxgrid"), 1);
     compare(fine(2, "jacobi"), fine(2, "jacobi"), 1);
-    for (size_t k = 0; k < sizeof of_grids / sizeof of_grids[0]; k++) {
-        bool there = false;
-        for (int m = 0; m < device.kernels && !there; m++)
-            there = strstr(device.kernel[m].name, of_grids[k]) && device.kernel[m].launches > 0;
-        if (!there) fail_msg("%s has not run", of_grids[k]);
-    }
+    assert_have_run(of_grids, sizeof of_grids / sizeof of_grids[0]);
 }
 
 /* Kernels leave their rows out after conjugate gradients have stopped. */
@@ -130,6 +135,19 @@ static void other_scenes(void **state)
 {
     (void)state;
     for (int k = 0; k < SCENES; k++) compare(scenes[k](), scenes[k](), 5);
+}
+
+static mps_sim *with_gas(int32_t dim)
+{
+    mps_sim *sim = rolling("imps", dim);
+    ASSERT_OK(sim, mps_model_use(sim, "gas.pocket"));
+    return sim;
+}
+
+static void gas_without_a_pocket(void **state)
+{
+    (void)state;
+    for (int32_t dim = 2; dim <= 3; dim++) compare(with_gas(dim), with_gas(dim), 3);
 }
 
 /* Each model of the library beside those of a preset. */
@@ -163,7 +181,7 @@ static void kernels_are_there(void **state)
                                           "step_mass__",
                                           "lost__outside_rows",
                                           "lost__spilled_rows",
-                                          "gas_pocket"}; /* ON_HOST of that script */
+                                          "gas_pocket_faces__"}; /* ON_HOST of that script */
     int64_t launches = 0, different = 0;
     int kernels = 0;
     (void)state;
@@ -310,21 +328,32 @@ static void a_difference_is_found(void **state)
     ops->give(ops->self, fields.to);
 }
 
-/* Kernels leave out particles of other ranks, as the host's text does. */
+/* Loops of steps with a pocket of gas, and of those that wait for one. */
+static const char *const of_gas[] = {
+    "gas_pocket__give_rows in 2-D",        "gas_pocket__give_rows in 3-D",
+    "gas_pocket__push_film_rows in 2-D",   "gas_pocket__push_film_rows in 3-D",
+    "gas_pocket__load_rows in 2-D",        "gas_pocket_look__raise_speeds in 2-D",
+    "gas_pocket_look__raise_speeds in 3-D"};
+
+/* Kernels leave out particles of other ranks, as the host's text does. Some liquid encloses gas. */
 static void two_ranks(void **state)
 {
+    static const char *const scenes_of_ranks[] = {"air_2d", "gas_2d", "gas_3d"};
     opencl *other = calloc(1, sizeof *other);
     (void)state;
     assert_non_null(other);
     assert_true(opencl_open(other, MPS_DEVICE_FOLDER "/rows.bc"));
-    ranks_run k = {.device = {&device, other}};
-    ranks_go(&k);
-    for (int r = 0; r < 2; r++) {
-        assert_int_equal(k.status[r], MPS_OK);
-        assert_true(k.launches[r] > 100);
-        if (k.device[r]->failure[0]) fail_msg("rank %d: %s", r, k.device[r]->failure);
-        if (k.device[r]->difference[0]) fail_msg("rank %d: %s", r, k.device[r]->difference);
+    for (int m = 0; m < 3; m++) {
+        ranks_run k = {.scene = scenes_of_ranks[m], .device = {&device, other}};
+        ranks_go(&k);
+        for (int r = 0; r < 2; r++) {
+            assert_int_equal(k.status[r], MPS_OK);
+            assert_true(k.launches[r] > 100);
+            if (k.device[r]->failure[0]) fail_msg("rank %d: %s", r, k.device[r]->failure);
+            if (k.device[r]->difference[0]) fail_msg("rank %d: %s", r, k.device[r]->difference);
+        }
     }
+    assert_have_run(of_gas, sizeof of_gas / sizeof of_gas[0]);
     opencl_close(other);
     free(other);
 }
@@ -332,17 +361,12 @@ static void two_ranks(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(sums_of_any_size),
-        cmocka_unit_test(scans_of_any_size),
-        cmocka_unit_test(searches_of_any_size),
-        cmocka_unit_test(presets),
-        cmocka_unit_test(several_grids),
-        cmocka_unit_test(solutions),
-        cmocka_unit_test(other_scenes),
-        cmocka_unit_test(all_models),
-        cmocka_unit_test(two_ranks),
-        cmocka_unit_test(kernels_are_there),
-        cmocka_unit_test(a_difference_is_found),
+        cmocka_unit_test(sums_of_any_size),     cmocka_unit_test(scans_of_any_size),
+        cmocka_unit_test(searches_of_any_size), cmocka_unit_test(presets),
+        cmocka_unit_test(several_grids),        cmocka_unit_test(solutions),
+        cmocka_unit_test(other_scenes),         cmocka_unit_test(all_models),
+        cmocka_unit_test(gas_without_a_pocket), cmocka_unit_test(two_ranks),
+        cmocka_unit_test(kernels_are_there),    cmocka_unit_test(a_difference_is_found),
     };
     if (!opencl_open(&device, MPS_DEVICE_FOLDER "/rows.bc")) {
         print_message("skipped: %s\n", device.failure);

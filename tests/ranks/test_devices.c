@@ -9,11 +9,14 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { TEXT = 300, MOST = 4, FIRST = 3 /* tests before those of scenes */ };
+enum { TEXT = 300, MOST = 4, FIRST = 4 /* tests before those of scenes */ };
+
+/* The scene as it is; with liquid that fills the tank, so that nothing gives its pressures a level; with gas.pocket that finds no pocket. */
+enum { AS_IT_IS, FULL, WITHOUT_POCKET };
 
 typedef struct run {
     const scene *scene;
-    bool full;             /* the liquid fills the tank: nothing gives its pressures a level */
+    int another;           /* AS_IT_IS, FULL or WITHOUT_POCKET */
     kit_engine_team *team; /* NULL: alone, without a device */
     record *records;       /* [steps] */
     shadow device[MOST];
@@ -24,7 +27,8 @@ static mps_status build(const run *k, mps_sim *sim)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.45, 0.4};
     MPS__TRY(scene_build(sim, k->scene));
-    return k->full ? mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) : MPS_OK;
+    if (k->another == WITHOUT_POCKET) return mps_model_use(sim, "gas.pocket");
+    return k->another == FULL ? mps_fill_box_add(sim, 0, lo, hi, NULL, NULL) : MPS_OK;
 }
 
 /* A scene with a device, whose handle has memory that is closed while loops run. */
@@ -60,12 +64,12 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim_destroy(sim);
 }
 
-static run *run_scene(const scene *s, bool full, int32_t ranks)
+static run *run_scene(const scene *s, int another, int32_t ranks)
 {
     run *k = calloc(1, sizeof *k);
     assert_non_null(k);
     k->scene = s;
-    k->full = full;
+    k->another = another;
     k->records = calloc((size_t)s->steps, sizeof *k->records);
     assert_non_null(k->records);
     if (ranks > 1) {
@@ -86,12 +90,12 @@ static void give_back(run *k)
     free(k);
 }
 
-/* The liquid fills the tank; the devices solve the equation, else the hosts; auxgrid has more than one grid there. */
-enum { FULL = 1, THERE = 2, GRIDS = 4 };
+/* What is so: the devices solve the equation, else the hosts; auxgrid has more than one grid there. */
+enum { THERE = 1, GRIDS = 2 };
 
-static void compare(const scene *s, int32_t ranks, int what)
+static void compare(const scene *s, int another, int32_t ranks, int what)
 {
-    run *alone = run_scene(s, what & FULL, 1), *many = run_scene(s, what & FULL, ranks);
+    run *alone = run_scene(s, another, 1), *many = run_scene(s, another, ranks);
     char text[TEXT];
     for (int k = 1; k < s->steps; k += 3)
         if (!record_same(&alone->records[k], &many->records[k], text, sizeof text))
@@ -112,9 +116,9 @@ static void test_scene(void **state)
 {
     const scene *of = *state;
     scene s = *of;
-    if (scene_runs(of, 0, 2)) compare(&s, 2, THERE);
+    if (scene_runs(of, 0, 2)) compare(&s, AS_IT_IS, 2, THERE);
     s.preconditioner = "jacobi";
-    if (scene_runs(of, 1, 2)) compare(&s, MOST, THERE);
+    if (scene_runs(of, 1, 2)) compare(&s, AS_IT_IS, MOST, THERE);
 }
 
 /* So many cells that auxgrid has other grids, for one density and for two, in 2-D and 3-D. */
@@ -126,7 +130,7 @@ static void several_grids(void **state)
         scene s = *scene_named(name[k]);
         s.dp *= s.dim == 2 ? 0.3 : 0.6;
         s.steps = 5;
-        compare(&s, 3, THERE | GRIDS);
+        compare(&s, AS_IT_IS, 3, THERE | GRIDS);
     }
 }
 
@@ -137,7 +141,16 @@ static void pressures_without_a_level(void **state)
     (void)state;
     s.steps = 12;
     s.preconditioner = "jacobi";
-    compare(&s, 3, FULL);
+    compare(&s, FULL, 3, 0);
+}
+
+/* All ranks wait in the same steps, and look in the same steps. */
+static void gas_without_a_pocket(void **state)
+{
+    scene s = *scene_named("roll_2d");
+    (void)state;
+    s.steps = 24;
+    compare(&s, WITHOUT_POCKET, 2, THERE);
 }
 
 /* ---- refusals ---- */
@@ -221,9 +234,9 @@ static void devices_of_all_or_none(void **state)
 
 int main(void)
 {
-    struct CMUnitTest tests[FIRST + SCENES] = {cmocka_unit_test(devices_of_all_or_none),
-                                               cmocka_unit_test(pressures_without_a_level),
-                                               cmocka_unit_test(several_grids)};
+    struct CMUnitTest tests[FIRST + SCENES] = {
+        cmocka_unit_test(devices_of_all_or_none), cmocka_unit_test(pressures_without_a_level),
+        cmocka_unit_test(several_grids), cmocka_unit_test(gas_without_a_pocket)};
     for (int k = 0; k < SCENES; k++)
         tests[FIRST + k] = (struct CMUnitTest){.name = scenes[k].name,
                                                .test_func = test_scene,

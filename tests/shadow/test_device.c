@@ -99,46 +99,6 @@ static void checkpoints_change_sides(void **state)
 
 /* ---- failures ---- */
 
-/* Particles in the order of a search, if one is due: a failed step may have done it. */
-static void put_in_order(mps_sim *sim)
-{
-    mps_stencil near;
-    assert_int_equal(mps_stencil_init(&near, sizeof near), MPS_OK);
-    ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &near));
-}
-
-/* Whichever launch or download fails, the step fails and leaves the state as it was. `count`: that of the shadow, `fails_at`: which one. */
-static void fail_each(mps_sim *host, mps_sim *sim, const int64_t *count, int64_t *fails_at)
-{
-    const int64_t before = *count;
-    int64_t failed = 0;
-    go(host, 1);
-    go(sim, 1);
-    const int64_t all = *count - before;
-    for (int64_t k = 1; k <= all; k++) {
-        *fails_at = *count + k;
-        const mps_status status = mps_step(sim, 0.01, NULL);
-        if (status == MPS_OK) { /* a step with fewer of them, or no rows but sums */
-            ASSERT_OK(host, mps_step(host, 0.01, NULL));
-            continue;
-        }
-        assert_int_equal(status, MPS_E_PLUGIN);
-        assert_non_null(strstr(mps_sim_error(sim), "device 'shadow' failed: as the test wants it"));
-        *fails_at = 0;
-        failed++;
-        /* else the next step begins, and fails, with fields that the device has alone */
-        if (failed % 3 > 0) continue;
-        put_in_order(host);
-        put_in_order(sim);
-        same(host, sim);
-    }
-    assert_true(failed > all / 3);
-    *fails_at = 0;
-    go(host, 2);
-    go(sim, 2);
-    same(host, sim);
-}
-
 /* Until two of the steps have looked for candidates, which the device has alone for a while. */
 static void failing_devices(void **state)
 {

@@ -80,18 +80,6 @@ static void run(mps_sim *sim, const char *name, failure failed[FAILURES])
 
 /* ---- the same bytes ---- */
 
-/* All fields, also those of the library alone. */
-static void same_memory(const mps_sim *a, const mps_sim *b)
-{
-    const mps__particles *p = &a->world.particles, *q = &b->world.particles;
-    assert_int_equal(p->fields, q->fields);
-    for (int32_t k = 0; k < p->fields; k++) {
-        const mps__field *f = &p->field[k];
-        const size_t bytes = (size_t)p->n * (size_t)f->components * f->size;
-        if (memcmp(*f->data, *q->field[k].data, bytes) != 0) fail_msg("'%s' differs", f->name);
-    }
-}
-
 static void compare(mps_sim *host, mps_sim *sim)
 {
     failure failed[2][FAILURES];

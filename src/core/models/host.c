@@ -239,23 +239,11 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 
 /* ---- a device ---- */
 
-/* Models of the library whose verbs look at arrays outside of loops. */
-static bool is_serial(const mps__model *model)
-{
-    static const char *const names[] = {"gas.pocket"};
-    bool found = false;
-    for (size_t k = 0; k < sizeof names / sizeof names[0]; k++)
-        found = found || strcmp(model->ops->name, names[k]) == 0;
-    return found;
-}
-
 /* Where a call runs. Verbs of plug-ins and passes that read the world run on the host. */
 static int32_t place_of(const mps__host *h, const mps__call *call)
 {
     if (!h->twins.open) return MPS__ON_HOST;
-    const bool flat = call->pass
-                          ? call->pass->flat
-                          : !mps__models_foreign(h->models, call->model) && !is_serial(call->model);
+    const bool flat = call->pass ? call->pass->flat : !mps__models_foreign(h->models, call->model);
     return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
 }
 
@@ -293,6 +281,26 @@ void mps__host_end_serial(mps_stage *s, const mps_view *there)
     s->view = there;
 }
 
+void mps__host_take(mps_stage *s)
+{
+    mps__host *h = s->host;
+    if (h->twins.place == MPS__ON_HOST) return;
+    for (int32_t u = 0; u < h->call->use_count; u++)
+        h->data[u] = mps__twins_array(&h->twins, h->call->channel[u], MPS__ON_HOST);
+    mps__twins_go(&h->twins, MPS__ON_HOST);
+    s->view = h->view;
+    h->taken = true;
+    h->twins.device.info.host_calls++;
+}
+
+void mps__host_come(mps__host *h)
+{
+    if (!h->taken || h->came) return;
+    begin_channels(h, h->call, MPS__ON_HOST);
+    make_ready(h, h->call, MPS__ON_HOST);
+    h->came = true;
+}
+
 /* ---- calls ---- */
 
 int32_t mps__host_line(const mps__host *h, const mps__call *call)
@@ -323,6 +331,9 @@ static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *c
     mps_view there;
     const int32_t place = place_of(h, call);
     h->view = v;
+    h->call = call;
+    h->data = data;
+    h->taken = h->came = false;
     for (int32_t u = 0; u < call->use_count; u++)
         data[u] = mps__twins_array(&h->twins, call->channel[u], place);
     v->setting = call->model ? call->model->k : NULL;
@@ -338,13 +349,16 @@ static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *c
     }
     mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
     mps__twins_go(&h->twins, MPS__ON_HOST);
-    if (place == MPS__ON_DEVICE && status >= 0) status = mps__device_status(&h->twins.device);
+    /* what a verb makes of fields that have not come is no reason */
+    if (place == MPS__ON_DEVICE && (status >= 0 || (h->came && h->twins.device.failed)))
+        status = mps__device_status(&h->twins.device);
     h->everywhere = false;
     h->model = NULL;
     h->scratch_used = 0;
     s->view = v;
     s->data = NULL;
-    note_writes(h, call, place);
+    note_writes(h, call, h->came ? MPS__ON_HOST : place);
+    h->taken = false;
     return status;
 }
 

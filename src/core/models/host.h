@@ -39,13 +39,16 @@ typedef struct mps__host {
     uint8_t *leaves; /* [n] 1: a row that leaves; where `leaving` */
     int64_t leaves_capacity;
     bool leaving;
-    mps__model *model; /* of the verb in progress, NULL: a pass */
-    bool everywhere;   /* loops go over ghosts too */
-    int32_t line;      /* of the budget, of the verb in progress: MPS__LINE_... */
-    bool no_memory;    /* a verb got no scratch */
-    bool misused;      /* a verb asked for a loop that there is not */
-    int32_t limiter;   /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
-    mps__sets sets;    /* bodies */
+    mps__model *model;     /* of the verb in progress, NULL: a pass */
+    const mps__call *call; /* in progress, */
+    void **data;           /* and its arrays */
+    bool taken, came;      /* it has gone on on the host; what it uses has come */
+    bool everywhere;       /* loops go over ghosts too */
+    int32_t line;          /* of the budget, of the verb in progress: MPS__LINE_... */
+    bool no_memory;        /* a verb got no scratch */
+    bool misused;          /* a verb asked for a loop that there is not */
+    int32_t limiter;       /* place in the plan of the verb that lowered s->dt_limit last, or -1 */
+    mps__sets sets;        /* bodies */
     mps__plan plan;
     mps__twins twins;
     mps__densities densities;       /* of the phases */
@@ -100,6 +103,11 @@ double *mps__laters_maxima(mps__host *h, int32_t count, mps__then then);
 /* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
 const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);
+/* A verb on a device that has written nothing yet goes on on the host until it returns: its loops, its scratch, s->data. What it uses comes with the
+ * first of these loops; where there is none nothing comes and nothing goes back. */
+void mps__host_take(mps_stage *s);
+/* Before such a loop. Where the device fails loops of the host have no rows. */
+void mps__host_come(mps__host *h);
 /* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
 int32_t mps__host_line(const mps__host *h, const mps__call *call);
 /* Log the names of the calls that run on the host, once after models or the device changed. */

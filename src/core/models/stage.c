@@ -167,6 +167,12 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
 
 /* ---- loops of calls ---- */
 
+/* Rows of a loop on the host: none where what it reads has not come from a device. */
+static int64_t rows_here(const mps__host *h, const mps_view *v)
+{
+    return h->twins.device.failed ? 0 : v->n;
+}
+
 void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows, const void *fields)
 {
     job k = {.h = h, .v = v, .rows = rows, .fields = fields};
@@ -174,7 +180,7 @@ void mps__host_rows(const mps__host *h, const mps_view *v, const mps_rows *rows,
     if (d)
         launch(d, &k, NULL, NULL, NULL);
     else
-        mps_parallel_rows(h->parallel, v->n, run_rows, &k);
+        mps_parallel_rows(h->parallel, rows_here(h, v), run_rows, &k);
 }
 
 void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add,
@@ -186,7 +192,7 @@ void mps__host_sum(const mps__host *h, const mps_view *v, int32_t count, const m
     if (d)
         launch(d, &k, sum, NULL, NULL);
     else
-        mps_exact_rows(h->parallel, v->n, MPS_PARALLEL_LEAST, run_sums, &k,
+        mps_exact_rows(h->parallel, rows_here(h, v), MPS_PARALLEL_LEAST, run_sums, &k,
                        &(mps_exact_values){.sums = count, .sum = sum});
     mps__ranks_sum(h->ghosts->ranks, count, sum);
     for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
@@ -200,7 +206,7 @@ void mps__host_max(const mps__host *h, const mps_view *v, int32_t count, const m
     if (d)
         launch(d, &k, NULL, maxima, NULL);
     else
-        mps_parallel_max(h->parallel, v->n, count, run_maxima, &k, maxima);
+        mps_parallel_max(h->parallel, rows_here(h, v), count, run_maxima, &k, maxima);
     mps__ranks_max(h->ghosts->ranks, count, maxima);
 }
 
@@ -237,15 +243,17 @@ void mps__host_max_later(mps__host *h, const mps_view *v, int32_t count, const m
 
 void mps_stage_rows(const mps_stage *s, const mps_rows *rows, const void *fields)
 {
+    mps__host_come(host_of(s));
     mps__host_rows(host_of(s), s->view, rows, fields);
 }
 
-/* First values of sums or maxima. A count that the loops have no room for makes the verb fail,
- * whatever it returns. @return whether the loop may run */
+/* Before a loop with sums or maxima: first values. A count that there is no room for makes the verb
+ * fail, whatever it returns. @return whether the loop may run */
 static bool begin_values(const mps_stage *s, int32_t count, const char *what, double first,
                          double *values)
 {
     mps__host *h = host_of(s);
+    mps__host_come(h);
     for (int32_t m = 0; m < count && m < MPS_PARALLEL_VALUES; m++) values[m] = first;
     if (count >= 1 && count <= MPS_PARALLEL_VALUES) return true;
     h->misused = true;
@@ -381,6 +389,7 @@ int mps_stage_grid(mps_stage *s, double side, mps_grid *grid)
     if (mps__struct_out(NULL, "mps_grid", grid, &made, sizeof made) < 0)
         return mps_stage_fail(s, "the grid is NULL or not initialised: call mps_grid_init() first");
     if (host_of(s)->twins.place == MPS__ON_DEVICE) return chain_there(s, &made, first, next);
+    mps__host_come(host_of(s));
     chain_rows(s->view, &made, first, next);
     return 0;
 }
@@ -390,6 +399,7 @@ int mps_stage_refresh(mps_stage *s, int32_t count, const mps_shared *shared)
     enum { MOST = 16 };
     mps__shared list[MOST];
     mps__host *h = host_of(s);
+    mps__host_come(h);
     if (count < 1 || count > MOST)
         return mps_stage_fail(s, "refresh: %d arrays: must be 1..%d", (int)count, MOST);
     for (int32_t k = 0; k < count; k++) {

@@ -97,6 +97,7 @@ int mps_stage_voids(mps_stage *s, const mps_voids_config *config, mps_voids *voi
     if (s->hook < MPS_PREPARE)
         return mps_stage_fail(s, "mps_stage_voids() was called before MPS_PREPARE: regions of "
                                  "particles are not known yet");
+    mps__host_take(s); /* voids are found and looked at cell by cell */
     mps__world *w = ((mps__step *)h->step)->w;
     mps_status status = read_config(h->context, w->setup.dim, config, &own);
     if (status == MPS_OK) status = mps__struct_check(h->context, "mps_voids", voids);

@@ -66,33 +66,66 @@ static mps_status make_room(mps__voids *v, int64_t n)
     return mps__grow(c, (void **)&v->slab, &r->slab, 0, room, sizeof *v->slab);
 }
 
+/* Where rows put what they find: v->place and v->slab, or memory of a device. */
+typedef struct found {
+    mps__device *device;
+    double *place;
+    int32_t *slab;
+} found;
+
 /* Places of liquid particles, and the highest slab of fluid of all ranks. */
-static mps_status find_liquid(mps__voids *v, mps__world *w, mps_stage *s, double *highest)
+static mps_status find_rows(const found *k, const mps__voids *v, mps__world *w, const mps_stage *s,
+                            double *highest)
 {
     const mps__particles *p = &w->particles;
-    mps__twins_ready(&w->host.twins, MPS__POSITION, MPS__ON_HOST);
-    mps__twins_ready(&w->host.twins, MPS__REGION, MPS__ON_HOST);
-    MPS__TRY(make_room(v, p->n));
-    const liquid_fields f = {.kind = p->kind,
-                             .region = p->region,
-                             .ghost = w->ghosts.ghost,
-                             .x = p->x,
-                             .ref = p->ref,
-                             .place = v->place,
-                             .slab = v->slab,
+    const bool there = k->device;
+    const liquid_fields f = {.kind = mps__seen(w, p->kind),
+                             .region = mps__seen(w, p->region),
+                             .ghost = mps__ghosts_seen(&w->ghosts, k->device),
+                             .x = mps__seen(w, p->x),
+                             .ref = mps__seen(w, p->ref),
+                             .place = k->place,
+                             .slab = k->slab,
                              .origin = {v->origin[0], v->origin[1], v->origin[2]},
                              .side = v->side,
                              .slabs = v->slabs,
                              .tank = s->view->tank};
     const mps__shared shared[2] = {
-        {.values = v->slab, .bytes = sizeof *v->slab},
-        {.values = v->place, .bytes = (size_t)v->dim * sizeof *v->place}};
+        {.values = k->slab, .bytes = sizeof *k->slab, .there = there},
+        {.values = k->place, .bytes = (size_t)v->dim * sizeof *k->place, .there = there}};
     mps__values_run(&w->pool.parallel, &fluid_rows, v->dim, p->n, &f, NULL, highest);
-    MPS__TRY(mps__ghosts_share(&w->ghosts, shared, 2));
-    mps_stage_rows(s, &wall_rows, &f);
-    MPS__TRY(mps__ghosts_share(&w->ghosts, shared, 2));
+    MPS__TRY(mps__ghosts_share_at(&w->ghosts, k->device, shared, 2));
+    mps__host_rows(&w->host, s->view, &wall_rows, &f);
+    MPS__TRY(mps__ghosts_share_at(&w->ghosts, k->device, shared, 2));
     mps__ranks_max(&w->ranks, 1, highest);
     return MPS_OK;
+}
+
+/* The same at the device of a step: places and slabs come. */
+static mps_status find_there(mps__device *d, mps__voids *v, mps__world *w, const mps_stage *s,
+                             double *highest)
+{
+    mps__twins *t = &w->host.twins;
+    const size_t places = (size_t)w->particles.n * (size_t)v->dim * sizeof *v->place,
+                 slabs = (size_t)w->particles.n * sizeof *v->slab;
+    const found k = {d, mps__twins_room(t, 0, places), mps__twins_room(t, 1, slabs)};
+    if (!k.place || !k.slab) return MPS_E_NOMEM;
+    mps__twins_go(t, MPS__ON_DEVICE);
+    const mps_status status = find_rows(&k, v, w, s, highest);
+    mps__twins_go(t, MPS__ON_HOST);
+    MPS__TRY(status);
+    mps__device_download(d, v->place, k.place, places);
+    mps__device_download(d, v->slab, k.slab, slabs);
+    if (w->lists.screens.count > 0) mps__seen(w, w->particles.x); /* plates look from there */
+    return mps__device_status(d);
+}
+
+static mps_status find_liquid(mps__voids *v, mps__world *w, const mps_stage *s, double *highest)
+{
+    mps__device *d = mps__twins_device(&w->host.twins);
+    MPS__TRY(make_room(v, w->particles.n));
+    return d ? find_there(d, v, w, s, highest)
+             : find_rows(&(found){NULL, v->place, v->slab}, v, w, s, highest);
 }
 
 /* ---- the band ---- */
