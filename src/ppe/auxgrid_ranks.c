@@ -185,7 +185,7 @@ static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int6
     return all && found ? gather(r, found, sizeof *all, all) : MPS_PPE_NOMEM;
 }
 
-/* Centres of the cells that have particles here; with a device, whose homes are not, of all. Returns their number, -1: out of memory. */
+/* Centres of the cells that have particles here, or of all where a device knows which have. Returns their number, -1: out of memory. */
 static int64_t find_centres(mps__grid *g, double **centre)
 {
     mps__grid_ranks *r = &g->ranks;
