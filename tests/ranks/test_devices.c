@@ -9,7 +9,7 @@
 #include <string.h>
 #include <cmocka.h>
 
-enum { TEXT = 300, MOST = 4, FIRST = 4 /* tests before those of scenes */ };
+enum { TEXT = 300, MOST = 4, FIRST = 5 /* tests before those of scenes */ };
 
 /* The scene as it is; with liquid that fills the tank, so that nothing gives its pressures a level; with gas.pocket that finds no pocket. */
 enum { AS_IT_IS, FULL, WITHOUT_POCKET };
@@ -224,6 +224,52 @@ static void check_refusals(int launch)
     free(k);
 }
 
+typedef struct shortage {
+    kit_engine_team *team;
+    int64_t gives; /* pieces of room that rank 0 has */
+    shadow device[2];
+    mps_status status[2];
+    char error[2][TEXT];
+} shortage;
+
+static void run_short(void *argument, int32_t rank)
+{
+    shortage *k = argument;
+    mps_sim *sim = NULL;
+    assert_int_equal(scene_start(scene_named("dam_2d"), k->team, rank, &sim), MPS_OK);
+    shadow_attach(&k->device[rank], sim);
+    k->device[rank].refuses = rank == 0;
+    k->device[rank].gives = k->gives;
+    k->status[rank] = mps_step(sim, 1, NULL);
+    snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
+    mps_sim_destroy(sim);
+}
+
+/* However much room rank 0 finds: where it is too little, both ranks know why. */
+static void room_for_a_part(void **state)
+{
+    int shortages = 0;
+    bool enough = false;
+    (void)state;
+    for (int64_t gives = 0; !enough; gives += 3, shortages++) {
+        shortage *k = calloc(1, sizeof *k);
+        assert_non_null(k);
+        k->gives = gives;
+        k->team = kit_engine_create(2, 0);
+        kit_engine_run(k->team, run_short, k);
+        kit_engine_destroy(k->team);
+        enough = k->status[0] == MPS_OK && k->status[1] == MPS_OK;
+        if (!enough) {
+            assert_true(k->status[0] == MPS_E_NOMEM || k->status[0] == MPS_E_PLUGIN);
+            assert_int_equal(k->status[1], MPS_E_RANKS);
+            assert_non_null(strstr(k->error[1], "rank 0 of 2"));
+        }
+        for (int r = 0; r < 2; r++) assert_int_equal(k->device[r].rooms, 0);
+        free(k);
+    }
+    assert_true(shortages > 10);
+}
+
 static void devices_of_all_or_none(void **state)
 {
     (void)state;
@@ -235,8 +281,9 @@ static void devices_of_all_or_none(void **state)
 int main(void)
 {
     struct CMUnitTest tests[FIRST + SCENES] = {
-        cmocka_unit_test(devices_of_all_or_none), cmocka_unit_test(pressures_without_a_level),
-        cmocka_unit_test(several_grids), cmocka_unit_test(gas_without_a_pocket)};
+        cmocka_unit_test(devices_of_all_or_none), cmocka_unit_test(room_for_a_part),
+        cmocka_unit_test(pressures_without_a_level), cmocka_unit_test(several_grids),
+        cmocka_unit_test(gas_without_a_pocket)};
     for (int k = 0; k < SCENES; k++)
         tests[FIRST + k] = (struct CMUnitTest){.name = scenes[k].name,
                                                .test_func = test_scene,

@@ -118,7 +118,7 @@ static void *room(void *self, uint64_t bytes)
     shadow *s = self;
     int k = 0;
     s->why = NULL;
-    if (s->refuses) return NULL;
+    if (s->refuses && s->gives-- <= 0) return NULL;
     if (!s->arena)
         s->arena = s->arena_end = mmap(NULL, ARENA, PROT_NONE,
                                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

@@ -317,6 +317,20 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
     return mps__solvers_solve_series(s, problem, &(mps__effort){.looser = 1}, p, result);
 }
 
+/* What a solution has come to, in words. */
+static mps_status tell(const mps__solvers *s, const mps_ppe_problem *problem,
+                       const mps_ppe_result *result, mps_status status)
+{
+    return mps__fail(s->context, status,
+                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, "
+                     "residual %.3g (wanted %.3g), "
+                     "divergence %.3g (wanted %.3g), %lld unknowns",
+                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason),
+                     result->iterations, problem->max_iterations, result->residual,
+                     problem->tolerance, result->divergence, problem->divergence,
+                     (long long)(problem->ranks ? problem->ranks->rows : problem->n));
+}
+
 mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
                                      const mps__effort *effort, double *p, mps_ppe_result *result)
 {
@@ -334,6 +348,8 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         mps__solvers_run(s, &limited, p, result);
     if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
+    /* at once: other ranks are in another call then */
+    if (result->reason == MPS_PPE_NOMEM) return tell(s, &limited, result, status);
     /* of a residual that is finite all pressures are */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
                                                       : !mps__finite(p, problem->n);
@@ -346,14 +362,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         status = verify(s, &limited, p, result);
         if (status != MPS_W_NOT_CONVERGED) return status;
     }
-    return mps__fail(s->context, status,
-                     "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, "
-                     "residual %.3g (wanted %.3g), "
-                     "divergence %.3g (wanted %.3g), %lld unknowns",
-                     s->use->name, s->pc ? s->pc->name : "none", reason_text(result->reason),
-                     result->iterations, limited.max_iterations, result->residual,
-                     limited.tolerance, result->divergence, limited.divergence,
-                     (long long)(problem->ranks ? problem->ranks->rows : problem->n));
+    return tell(s, &limited, result, status);
 }
 
 /* ---- for plug-ins ---- */
