@@ -156,8 +156,8 @@ typedef struct mps_device_info {
  *
  *  On many ranks a call of all ranks together: each has a device of its own, or none has one.
  *  Where one fails all fail, and all run on the host then. A search of neighbours is done on the
- *  hosts. The pressure equation is solved on the devices by `sundials.pcg` with `jacobi` or no
- *  preconditioner, by all other solvers on the hosts.
+ *  hosts. The pressure equation is solved on the devices by `sundials.pcg` with `auxgrid`, `jacobi`
+ *  or no preconditioner, by all other solvers on the hosts.
  *  @return MPS_E_ARG (which entry, and what is allowed; some ranks have a device, others none),
  *  MPS_E_BUSY (a lease is open), MPS_E_NOMEM, MPS_E_PLUGIN (the device does not open, or the one
  *  before does not give the fields), MPS_E_RANKS; alone the handle is as before */

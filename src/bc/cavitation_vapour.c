@@ -6,8 +6,8 @@
  *
  * p_a that of the surroundings, where p = 0. What the model leaves is room without liquid or gas,
  * which closes when the pressure rises. Rows count whose last pressure is below half of it: flows
- * without such suction keep their bytes, and their solution costs nothing more. So a row that falls
- * from above half of it to below it does so for one step. */
+ * without such suction keep their bytes, and their solution costs nothing more. A pressure that
+ * falls from above half of the least one to below it in one step is held from the next step on. */
 #include "helpers.h"
 
 enum { LEAST, SETTINGS };

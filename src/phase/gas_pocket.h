@@ -123,8 +123,8 @@ typedef struct mps__pocket_faces {
  * @return non-zero after a failure. gas_pocket_look.c */
 int mps__pocket_wait(mps_stage *s, const double *velocity, const int32_t *region, bool *waits);
 /* The voids of the step, without those that are less than half of the smallest pocket. They are
- * looked at cell by cell, so a GPU hands the rest of the verb to the host: s->data has other
- * addresses from here on. @return non-zero after a failure */
+ * looked at cell by cell, on the host: on a GPU the rest of the verb runs there, and s->data has
+ * other addresses from here on. @return non-zero after a failure */
 int mps__pocket_look(mps_stage *s, mps__pocket_faces *f);
 /* Square or cube of a side. */
 double mps__pocket_power(double side, int32_t dim);

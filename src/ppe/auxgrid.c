@@ -55,7 +55,7 @@ static int find_cells(mps__grid *g, const mps_ppe_problem *problem, const mps__g
     return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
 }
 
-/* Whether a device answers all questions at once. On many ranks the host joins what each of them tells. */
+/* Whether the device measures the rows without a wait in between. On many ranks the host joins sums of all ranks each time. */
 static bool asks_once(const mps__grid *g, const mps_ppe_problem *problem)
 {
     return g->device && !problem->ranks;

@@ -133,13 +133,13 @@ typedef struct mps__grid_there {
     int64_t *send, *receive; /* parts */
     int64_t *owned;          /* [cells] of the first grid, as mps__grid_owned has them */
     int32_t *owner;          /* [cells] of it */
-    double *packet;          /* what comes to the host or goes from there */
+    double *packet;          /* values on their way to the host or from there */
 } mps__grid_there;
 
 /* Many ranks: each cell of the first grid is owned by the rank that owns its centre, one of a coarser grid by the owner of its first cell.
  * The owner sums the particles of the cell, which it all has, and what they add to the cells about it goes to the owners of these. All
  * ranks have the cells and coefficients of all grids. Of large grids each solves its own cells; the right side of the first small one is
- * collected on all ranks, which do the same with it and all coarser ones. On devices no grid is large: a message costs more than the cells. */
+ * collected on all ranks, which do the same with it and all coarser ones. Devices do not divide grids: each solves all of their cells. */
 typedef struct mps__grid_ranks {
     mps_ppe_ranks table; /* its `ranks` are 0: alone */
     mps__grid_room room[MPS__GRID_ROOMS];
@@ -154,8 +154,6 @@ typedef struct mps__grid_ranks {
     int32_t *owner;        /* [cells] of it */
     const int64_t *key;    /* [cells] of it, on the host */
     const int32_t *about;  /* [cells * 3^dim] the same */
-    const double
-        *collected; /* what the last collection gave, cell by cell in the order of `owned` */
     mps__grid_there there;
     double *out, *in;
     int64_t *send,
@@ -296,9 +294,9 @@ static inline void mps__grid_counted(mps__grid_level *l, const double cells[2])
 }
 /* Then homes, keys, lists of points, neighbours. */
 void mps__grid_number(mps__grid *g, mps__grid_level *l);
-/* As mps__grid_find(), for points whose keys are there. */
+/* As mps__grid_find(), for points whose keys are on the device. */
 int64_t mps__grid_find_there(mps__grid *g, mps__grid_level *l, int64_t points);
-/* Homes of the points of a level among its cells, whose keys are there. */
+/* Homes of the points of a level among its cells, from the keys of both. */
 void mps__grid_home(mps__grid *g, mps__grid_level *l);
 /* Points of the own cells of a rank by cell, as mps__grid_list() has them on the host. */
 void mps__grid_list_own(mps__grid *g, mps__grid_level *l);
@@ -374,6 +372,20 @@ int mps__grid_restrict(mps__grid *g, const double *values, double scale);
 
 /* ---- many ranks (auxgrid_ranks.c); all return 0 or a reason of failure ---- */
 
+/* Parts that go to other ranks, and that come from them. */
+static inline int64_t mps__grid_sent(const mps__grid_ranks *r)
+{
+    int64_t sum = 0;
+    for (int32_t k = 0; k < r->route.to_count; k++) sum += r->route.sent[k];
+    return sum;
+}
+static inline int64_t mps__grid_received(const mps__grid_ranks *r)
+{
+    int64_t sum = 0;
+    for (int32_t k = 0; k < r->route.from_count; k++) sum += r->route.received[k];
+    return sum;
+}
+
 /* Begin with an equation, on one rank or many. */
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem);
 void mps__grid_ranks_release(mps__grid *g);
@@ -385,19 +397,19 @@ int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem);
 int mps__grid_ranks_share(mps__grid *g, const double *values);
 /* What particles of one rank add to cells of another, into `parts`. */
 int mps__grid_ranks_exchange(mps__grid *g);
-/* Values of cells: those of each rank's own cells to all ranks. */
+/* Values of cells: those of each rank's own cells to all ranks. They stand in MPS__GRID_IN in the order of `owned`, all of a cell together. */
 int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
                             double *const *array);
 
 /* ---- many ranks with a device each (auxgrid_ranks_there.c) ---- */
 
-/* Cells of the first grid from the keys of all ranks, as mps__grid_cells() makes them, and homes of all columns. The host gets what owners
- * are found from. Returns 0 or a reason of failure. */
+/* Cells of the first grid from the keys of all ranks, as mps__grid_cells() makes them, and homes of all columns. Keys and neighbours of the
+ * cells are copied to the host, which finds the owners. Returns 0 or a reason of failure. */
 int mps__grid_cells_there(mps__grid *g, const mps_ppe_problem *problem, const int64_t *key,
                           int64_t keys);
-/* What ranks have found on the host goes to the device. Returns 0 or a reason of failure. */
+/* Copy owners and lists to the device. Returns 0 or a reason of failure. */
 int mps__grid_owners_go(mps__grid *g);
-/* Values at places of arrays come to the host side by side, and go. place: there */
+/* Copy values at places of several arrays to the host, all of a place together, and back. place: [count] on the device */
 void mps__grid_come(mps__grid *g, const int64_t *place, int64_t count, int arrays,
                     double *const *array, double *values);
 void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,

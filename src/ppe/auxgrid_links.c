@@ -111,7 +111,7 @@ typedef struct rows {
     const double *diagonal, *shift;
     double square;           /* mean of r_ij^2, */
     const double *squared;   /* or where a device has it */
-    double *kappa, *entries; /* NULL: nobody asks for it */
+    double *kappa, *entries; /* out; entries NULL: not wanted */
 } rows;
 
 /* Sums: of kappa, of its inverse, of rows; the maximum: kappa. A lone pair at the end of the kernel says little. */
@@ -362,8 +362,9 @@ static int collect_sums(mps__grid *g, mps__grid_level *l)
     double counted = 0;
     const int reason = mps__grid_ranks_collect(g, &g->ranks.owned, 3,
                                                (double *[]){l->count, l->kappa, l->x});
+    const double *counts = g->ranks.room[MPS__GRID_IN].at; /* of a cell: count, kappa, x */
     if (reason) return reason;
-    for (int64_t c = 0; c < l->cells; c++) counted += g->ranks.collected[3 * c];
+    for (int64_t c = 0; c < l->cells; c++) counted += counts[3 * c];
     return counted == (double)g->ranks.table.rows ? 0 : MPS_PPE_BREAKDOWN;
 }
 

@@ -111,9 +111,7 @@ int mps__grid_ranks_exchange(mps__grid *g)
 {
     const mps__grid_ranks *r = &g->ranks;
     double *parts = g->parts;
-    int64_t sent = 0, received = 0;
-    for (int32_t k = 0; k < r->route.to_count; k++) sent += r->route.sent[k];
-    for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
+    const int64_t sent = mps__grid_sent(r), received = mps__grid_received(r);
     if (g->device)
         mps__grid_come(g, r->there.send, sent, 1, &parts, r->out);
     else
@@ -136,16 +134,19 @@ int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arra
     double *out = room(g, MPS__GRID_OUT, own * arrays, sizeof *out),
            *in = room(g, MPS__GRID_IN, all * arrays, sizeof *in);
     if (!out || !in) return MPS_PPE_NOMEM;
-    if (g->device) mps__grid_come(g, r->there.owned + first, own, arrays, array, out);
-    for (int64_t k = 0; k < own && !g->device; k++)
-        for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][owned->cell[first + k]];
+    if (g->device)
+        mps__grid_come(g, r->there.owned + first, own, arrays, array, out);
+    else
+        for (int64_t k = 0; k < own; k++)
+            for (int a = 0; a < arrays; a++) out[k * arrays + a] = array[a][owned->cell[first + k]];
     for (int32_t k = 0; k < r->table.ranks; k++)
         r->count[k] = owned->first[k + 1] - owned->first[k];
     if (gather(r, out, (size_t)arrays * sizeof *out, in)) return MPS_PPE_BREAKDOWN;
-    if (g->device) mps__grid_go(g, r->there.owned, all, arrays, array, in);
-    for (int64_t k = 0; k < all && !g->device; k++)
-        for (int a = 0; a < arrays; a++) array[a][owned->cell[k]] = in[k * arrays + a];
-    r->collected = in;
+    if (g->device)
+        mps__grid_go(g, r->there.owned, all, arrays, array, in);
+    else
+        for (int64_t k = 0; k < all; k++)
+            for (int a = 0; a < arrays; a++) array[a][owned->cell[k]] = in[k * arrays + a];
     return 0;
 }
 
@@ -185,7 +186,7 @@ static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int6
     return all && found ? gather(r, found, sizeof *all, all) : MPS_PPE_NOMEM;
 }
 
-/* Centres of the cells that have particles here, or of all where a device knows which have. Returns their number, -1: out of memory. */
+/* Centres of the cells that have particles here; with a device of all cells, for homes are not on the host. Returns their number, -1: out of memory. */
 static int64_t find_centres(mps__grid *g, double **centre)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -331,9 +332,8 @@ static int find_parts(mps__grid *g)
     mps__grid_ranks *r = &g->ranks;
     const int reason = connect_owners(g);
     const uint8_t *beside = mark_beside(g);
-    int64_t received = 0;
     if (reason) return reason;
-    for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
+    const int64_t received = mps__grid_received(r);
     r->receive = room(g, MPS__GRID_RECEIVED, received, sizeof *r->receive);
     r->in = room(g, MPS__GRID_PARTS_IN, received, sizeof *r->in);
     if (!beside || !r->receive || !r->in) return MPS_PPE_NOMEM;

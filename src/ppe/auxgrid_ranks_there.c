@@ -56,7 +56,7 @@ void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,
 
 /* ---- cells ---- */
 
-/* Keys of the cells and those about each come to the host, which finds owners and parts from them. */
+/* Copy keys and neighbours of the cells to the host, which finds owners and parts from them. */
 static int fetch_cells(mps__grid *g, const mps__grid_level *l)
 {
     const int64_t around = l->cells * mps__grid_all(g->dim);
@@ -76,14 +76,14 @@ int mps__grid_cells_there(mps__grid *g, const mps_ppe_problem *problem, const in
     mps__grid_level *l = &g->level[0];
     mps__device_upload(g->device, g->point_key, key, (size_t)keys * sizeof *key);
     if (!mps__grid_cells(g, l, keys)) return MPS_PPE_NOMEM;
-    l->points = g->ranks.columns; /* in place of the keys */
+    l->points = g->ranks.columns; /* until here the keys */
     if (!mps__grid_reserve_points(g, l)) return MPS_PPE_NOMEM;
     mps__grid_place(g, problem, l->points);
     mps__grid_home(g, l);
     return fetch_cells(g, l);
 }
 
-/* A list of the host. NULL: out of memory */
+/* Copy a list of the host to the device. NULL: out of memory */
 static void *send(mps__grid *g, int which, const void *list, int64_t count, size_t size)
 {
     void *there = mps__grid_ranks_room(g, which, count, size);
@@ -96,10 +96,8 @@ int mps__grid_owners_go(mps__grid *g)
     mps__grid_ranks *r = &g->ranks;
     mps__grid_there *t = &r->there;
     const int64_t cells = g->level[0].cells, first = r->owned.first[r->table.rank];
-    int64_t sent = 0, received = 0,
-            *wide = mps__grid_ranks_room(g, MPS__GRID_WIDE, cells, sizeof *wide);
-    for (int32_t k = 0; k < r->route.to_count; k++) sent += r->route.sent[k];
-    for (int32_t k = 0; k < r->route.from_count; k++) received += r->route.received[k];
+    const int64_t sent = mps__grid_sent(r), received = mps__grid_received(r);
+    int64_t *wide = mps__grid_ranks_room(g, MPS__GRID_WIDE, cells, sizeof *wide);
     for (int64_t c = 0; c < cells && wide; c++) wide[c] = r->owned.cell[c];
     g->turns = r->owned.first[r->table.rank + 1] - first;
     t->send = send(g, MPS__GRID_SEND_THERE, r->send, sent, sizeof *t->send);

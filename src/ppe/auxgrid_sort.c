@@ -189,7 +189,7 @@ void mps__grid_number(mps__grid *g, mps__grid_level *l)
 
 /* ---- many ranks: the cells are those of all ranks, the points those of this one ---- */
 
-/* Keys of the cells, in whose order points are: in place of those of the points. */
+/* Keys of the cells replace those of the points, in the order of the sort. */
 MPS_ROW void key_row(const int dim, const numbering *f, int64_t a)
 {
     (void)dim;
@@ -235,7 +235,7 @@ typedef struct listing {
     int32_t *list, *start;
 } listing;
 
-/* Those of other ranks' cells have no key, so they stand behind all others. */
+/* Columns in cells of other ranks get no key, so the sort puts them at the end. */
 MPS_ROW void choose_row(const int dim, const listing *f, int64_t k)
 {
     const int32_t home = f->home[f->column[k]];

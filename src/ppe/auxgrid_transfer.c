@@ -51,7 +51,7 @@ static void list_turns(mps__grid *g, const mps__grid_ranks *r)
     }
 }
 
-/* A device has the list already, but of a rank among many. */
+/* A device has the list since its points were sorted; on many ranks it makes one of the own cells. */
 bool mps__grid_list(mps__grid *g)
 {
     const int64_t cells = g->level[0].cells;
@@ -234,7 +234,7 @@ MPS_ROW void sum_turn(const int dim, const adding *t, int64_t turn)
 }
 MPS__LOOP(sum_turns, sum_turn, adding)
 
-/* A device has threads for the cells of all ranks, whose values come from their owners later. */
+/* A device clears and sums all cells; values of other ranks' cells are replaced by those of their owners later. */
 static void clear_parts(const mps__grid *g, const mps_parallel *team, const adding *t)
 {
     if (g->device)

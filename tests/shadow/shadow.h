@@ -14,8 +14,8 @@ typedef struct shadow {
     int64_t uploads, downloads, outdated; /* so many */
     int64_t launches;                     /* loops */
     int32_t ended;                        /* calls of a function of the test's */
-    bool refuses;                         /* there is no room, */
-    int64_t gives;                        /* but for so many pieces of it */
+    bool refuses;                         /* room is refused, */
+    int64_t gives;                        /* after so many pieces of it */
     bool dead;                            /* all fails that may */
     const char *why;                      /* what failed last; other calls forget it */
     int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */

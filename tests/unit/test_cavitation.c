@@ -13,6 +13,8 @@ static mps_sim *build(const char *preset, int32_t dim, double least)
     mps_sim *sim = new_sim(dim, dp);
     ASSERT_OK(sim, mps_preset_use(sim, preset));
     if (strcmp(preset, "imps") == 0) ASSERT_OK(sim, mps_model_remove(sim, "separation"));
+    if (least == 0 && strcmp(preset, "mmps") == 0)
+        ASSERT_OK(sim, mps_model_remove(sim, "cavitation"));
     if (least > 0) ASSERT_OK(sim, mps_model_use(sim, "cavitation.vapour"));
     if (least > 0) ASSERT_OK(sim, mps_model_set(sim, "cavitation", "least", least));
     add_tank(sim, LENGTH, 0.8, across);

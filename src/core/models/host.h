@@ -103,10 +103,10 @@ double *mps__laters_maxima(mps__host *h, int32_t count, mps__then then);
 /* What a call on a device does on the host, one row after the other: in between, the view has arrays of the host. @return the view of the device */
 const mps_view *mps__host_begin_serial(mps_stage *s);
 void mps__host_end_serial(mps_stage *s, const mps_view *there);
-/* A verb on a device that has written nothing yet goes on on the host until it returns: its loops, its scratch, s->data. What it uses comes with the
- * first of these loops; where there is none nothing comes and nothing goes back. */
+/* Run the rest of a verb of a device on the host: its loops, its scratch, s->data. It must not have written anything yet. Its channels are copied to the
+ * host by the first of these loops; without such a loop nothing is copied. */
 void mps__host_take(mps_stage *s);
-/* Before such a loop. Where the device fails loops of the host have no rows. */
+/* Call it before such a loop. If the copy fails, loops of the host have no rows. */
 void mps__host_come(mps__host *h);
 /* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */
 int32_t mps__host_line(const mps__host *h, const mps__call *call);

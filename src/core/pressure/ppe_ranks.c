@@ -7,7 +7,7 @@ static int share_columns(void *host, double *x)
 {
     const mps__ppe *e = host;
     const mps_status status = mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x);
-    /* at once: from here on this rank and the others make different calls */
+    /* tell the others at once: the next calls of this rank differ from theirs */
     mps__ranks_tell(e->ghosts->ranks, status);
     return status < 0;
 }
@@ -62,7 +62,8 @@ typedef struct ordering {
     int32_t *order;
 } ordering;
 
-/* A column stands behind its like before it, and behind the others whose particles come first. */
+/* Own columns are ascending, and so are those of other ranks. A column stands behind those of its
+ * kind before it and behind those of the other kind with a lower particle. */
 MPS_ROW void order_row(const int dim, const ordering *f, int64_t k)
 {
     const bool own = k < f->n;

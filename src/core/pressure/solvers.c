@@ -348,7 +348,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         mps__solvers_run(s, &limited, p, result);
     if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
-    /* at once: other ranks are in another call then */
+    /* before the sum over all ranks: the others are in another call */
     if (result->reason == MPS_PPE_NOMEM) return tell(s, &limited, result, status);
     /* of a residual that is finite all pressures are */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)

@@ -189,7 +189,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     if (mps__ppe_rows(&w->ppe) > 0)
         status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
     if (w->solvers.hint.refused) return MPS_OK; /* not solved yet */
-    /* what another rank has sent before it failed is no part of the equation */
+    /* where another rank has failed its reason is told, not what its last values did to the solution */
     if (status == MPS_E_SOLVER) MPS__TRY(mps__ranks_status(&w->ranks));
     if (status < 0) return tell_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
