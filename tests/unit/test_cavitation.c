@@ -39,7 +39,8 @@ static void note_pressures(mps_sim *sim, double *before, outcome *o)
     mps_lease p = {.struct_size = sizeof p};
     ASSERT_OK(sim, tags_peek(sim, &id, NULL, NULL, NULL));
     ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_READ, &p));
-    for (int64_t i = 0; i < p.count; i++) {
+    assert_non_null(id);
+    for (int64_t i = 0; id && i < p.count; i++) {
         const double now = p.data[i * p.stride];
         assert_in_range(id[i], 0, MOST - 1);
         o->lowest = fmin(o->lowest, now);
