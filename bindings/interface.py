@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 INCLUDE = Path(__file__).resolve().parent.parent / "include"
+CASE = {"case.h", "job.h", "page.h", "picture.h", "plugin.h", "series.h", "stats.h"}  # functions of libmps_case
 NO_INTERFACE = {"numbers.h"}  # functions for the loops of models in C: other languages have their own
 
 
@@ -68,7 +69,7 @@ def _headers() -> list[Path]:
     found: list[Path] = []
 
     def visit(path: Path) -> None:
-        for name in re.findall(r"#include <mps/(\w+\.h)>", path.read_text()):
+        for name in re.findall(r"^#include <mps/(\w+\.h)>", path.read_text(), re.M):
             visit(INCLUDE / "mps" / name)
         if path not in found:
             found.append(path)
@@ -169,6 +170,8 @@ def _statement(text: str, header: str, help_: str, all_: Interface) -> None:
     elif function:
         all_.functions.append(Function(function[2], _type(function[1]), _arguments(function[3]), header, help_,
                                        function[3].rstrip().endswith("...")))
+    elif text.startswith("MPS_PLUGIN_EXPORT "):
+        pass  # of a plug-in, not of the library
     elif text != "typedef int32_t mps_status" and not enum:
         raise ValueError(f"{header}: not understood: {text[:80]}")
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from interface import Function, Interface, Member, Struct, Type, layouts
+from interface import CASE, Function, Interface, Member, Struct, Type, layouts
 
 HERE = Path(__file__).resolve().parent / "fortran"
 PLUGINS = {"model.h", "stage.h", "voids.h", "reaction.h", "ppe.h", "flux.h", "exact.h", "parallel.h", "ranks.h", "device.h"}
-CASE = {"case.h", "job.h", "page.h", "picture.h", "series.h", "stats.h"}
 KINDS = {"int": "integer(c_int)", "int32_t": "integer(c_int32_t)", "mps_status": "integer(c_int32_t)", "uint32_t": "integer(c_int32_t)",
          "int64_t": "integer(c_int64_t)", "size_t": "integer(c_size_t)", "double": "real(c_double)", "float": "real(c_float)",
          "uint8_t": "integer(c_int8_t)", "char": "character(kind=c_char)"}
@@ -104,8 +103,27 @@ def module(structs: list[Struct]) -> list[str]:
            "        type(c_ptr), intent(in) :: sim", "        integer(c_int32_t), intent(in) :: status", "        if (status >= 0) return",
            "        if (c_associated(sim)) then", "            print '(2a)', 'libmps: ', mps_text(mps_sim_error(sim))", "        else",
            "            print '(2a)', 'libmps: ', mps_text(mps_status_text(status))", "        end if", "        error stop 1",
-           "    end subroutine mps_check"]
+           "    end subroutine mps_check", "", *CLOSE]
     return out + check(structs) + ["end module mps"]
+
+
+CLOSE = """\
+    !> Destroy a simulation after its frames and a snapshot, and forget them: a later call with them fails with MPS_E_ARG, a second mps_close
+    !> does nothing. Not allowed in a callback.
+    subroutine mps_close(sim, frames, snapshot)
+        type(c_ptr), intent(inout) :: sim
+        type(c_ptr), intent(inout), optional :: frames, snapshot
+        if (present(frames)) then
+            call mps_frames_close(frames)
+            frames = c_null_ptr
+        end if
+        if (present(snapshot)) then
+            call mps_snapshot_destroy(snapshot)
+            snapshot = c_null_ptr
+        end if
+        call mps_sim_destroy(sim)
+        sim = c_null_ptr
+    end subroutine mps_close""".splitlines()
 
 
 def functions(all_: Interface, structs: list[Struct]) -> list[str]:

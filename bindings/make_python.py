@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from interface import Callback, Interface, Member, Type, layouts
+from interface import CASE, Callback, Interface, Member, Type, layouts
 
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE / "python/mps"
@@ -93,12 +93,11 @@ def layout(all_: Interface) -> list[str]:
 
 
 def functions(all_: Interface, names: set[str]) -> list[str]:
-    case = set((HERE.parent / "tests/abi/symbols_case.txt").read_text().split())
     out = head("Functions") + ["from ctypes import POINTER, c_char, c_char_p, c_double, c_int, c_int32, c_int64, c_size_t, c_uint8, c_void_p", "",
                                "from ._structs import *  # noqa: F403", "", "# name: library, result, arguments", "FUNCTIONS = {"]
     for f in all_.functions:
         arguments = ", ".join(ctype(a.type, names) for a in f.arguments)
-        out.append(f'    "{f.name}": ("{"mps_case" if f.name in case else "mps"}", {ctype(f.result, names)}, [{arguments}]),')
+        out.append(f'    "{f.name}": ("{"mps_case" if f.header in CASE else "mps"}", {ctype(f.result, names)}, [{arguments}]),')
     return out + ["}"]
 
 

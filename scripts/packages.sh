@@ -2,7 +2,8 @@
 # Sourced by demo, check and validate: find out which Debian packages are missing, say so, install them.
 
 BUILD_PACKAGES=(gcc libc6-dev make cmake libsundials-dev libsuitesparse-dev libcairo2-dev zlib1g-dev libyaml-dev pkg-config)
-CHECK_PACKAGES=("${BUILD_PACKAGES[@]}" g++ gfortran libcmocka-dev clang clang-format clang-tidy cppcheck doxygen python3 binutils
+QUICK_PACKAGES=("${BUILD_PACKAGES[@]}" g++ libcmocka-dev locales python3)
+CHECK_PACKAGES=("${QUICK_PACKAGES[@]}" gfortran clang clang-format clang-tidy cppcheck doxygen binutils
     libopenmpi-dev openmpi-bin libtrilinos-zoltan-dev python3-numpy python3-jsonschema python3-yaml scdoc man-db llvm pocl-opencl-icd ocl-icd-opencl-dev)
 VALIDATE_PACKAGES=(python3 python3-numpy python3-matplotlib python3-pil)
 

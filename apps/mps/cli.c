@@ -11,10 +11,20 @@ enum { COUNT_MOST = 1024 };
 const option cli_options[] = {
     {HAS_SET, "--set", 's', "PATH=VALUE", "change a value of the case; may be repeated", OPTION_SET,
      0},
+    {HAS_MAP, "--map", 'm', "COLUMN=NAME",
+     "a column of the run is that of this name in the other table; may be repeated", OPTION_SET, 0},
     {HAS_OUT, "--out", 'o', "PLACE", "folder or file of the outputs; default: the name of the case",
      OPTION_TEXT, offsetof(choices, out)},
+    {HAS_PLUGIN, "--plugin", 0, "FILE",
+     "load a plug-in, or this one in place of that of the case; may be repeated", OPTION_PLUGIN, 0},
+    {HAS_TRUST, "--allow-plugins", 0, NULL, "load the plug-ins that a page names, too", OPTION_FLAG,
+     offsetof(choices, allow_plugins)},
     {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
      offsetof(choices, threads)},
+    {HAS_JOBS, "--jobs", 0, "N", "processes, each with a run at a time; default 1", OPTION_COUNT,
+     offsetof(choices, jobs)},
+    {HAS_PART, "--part", 0, "PART", "I/N: part I of N of the runs, e.g. of a task of a queue",
+     OPTION_TEXT, offsetof(choices, part)},
     {HAS_COUNT, "--count", 'n', "N", "number of runs, 2 to 100; default 5", OPTION_COUNT,
      offsetof(choices, count)},
     {HAS_FMI, "--fmi", 0, "N", "version of FMI, 2 or 3; default 3", OPTION_COUNT,
@@ -96,8 +106,14 @@ static int take(choices *c, const option *o, const char *value)
     void *place = (char *)c + o->place;
     if (o->kind == OPTION_TEXT) *(const char **)place = value;
     if (o->kind == OPTION_SET) {
-        if (c->sets == CLI_SETS) return refuse(c, value, "is one --set too many");
+        char why[48];
+        snprintf(why, sizeof why, "is one %s too many", o->name); /* --set or --map */
+        if (c->sets == CLI_SETS) return refuse(c, value, why);
         c->set[c->sets++] = value;
+    }
+    if (o->kind == OPTION_PLUGIN) {
+        if (c->plugins == CLI_PLUGINS) return refuse(c, value, "is one --plugin too many");
+        c->plugin[c->plugins++] = value;
     }
     if (o->kind == OPTION_COUNT) {
         const long count = strtol(value, &end, 10);
@@ -151,8 +167,14 @@ int cli_read(choices *c, const verb *v, int argc, char **argv)
 
 int cli_flush(const choices *c, int code)
 {
-    if (fflush(stdout) == 0 && !ferror(stdout)) return code;
-    cli_say(c, "mps %s: cannot write to stdout: %s\n", c->verb, strerror(errno));
+    const int before = errno; /* of an earlier write */
+    errno = 0;
+    const bool good = fflush(stdout) == 0 && !ferror(stdout);
+    if (good || code != MPS_EXIT_OK) return code;
+    cli_say(c, "mps %s: cannot write to stdout: %s\n", c->verb,
+            strerror(errno    ? errno
+                     : before ? before
+                              : EIO));
     return MPS_EXIT_FAILED;
 }
 
@@ -164,21 +186,39 @@ void cli_stem(const char *path, char *out, size_t size)
              begin);
 }
 
-void cli_print_messages(const choices *c, const mps_case *tank)
+size_t cli_messages(const mps_case *tank)
 {
-    const size_t size = mps_case_messages_write(tank, NULL, 0) + 1;
+    return mps_case_messages_write(tank, NULL, 0);
+}
+
+void cli_print_messages(const choices *c, const mps_case *tank, size_t before)
+{
+    const size_t size = cli_messages(tank) + 1;
+    if (size <= before + 1) return;
     char *text = malloc(size);
     if (!text) return;
     mps_case_messages_write(tank, text, size);
-    cli_say(c, "%s", text);
+    cli_say(c, "%s", text + before);
     free(text);
+}
+
+mps_status cli_open(const choices *c, mps_case **out)
+{
+    mps_case_options o;
+    mps_case_options_init(&o, sizeof o);
+    o.load = c->allow_plugins ? MPS_CASE_PLUGINS_ALL : MPS_CASE_PLUGINS_FILES;
+    o.set_count = c->sets;
+    o.set = c->set;
+    o.plugin_count = c->plugins;
+    o.plugin = c->plugin;
+    return mps_case_open(c->file[0], &o, out);
 }
 
 mps_case *cli_case(const choices *c, int *code)
 {
     mps_case *out = NULL;
-    const mps_status status = mps_case_read(c->file[0], c->sets, c->set, &out);
-    if (out) cli_print_messages(c, out);
+    const mps_status status = cli_open(c, &out);
+    if (out) cli_print_messages(c, out, 0);
     if (status == MPS_OK) return out;
     if (!out) cli_say(c, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
     *code = status == MPS_E_ARG || status == MPS_E_IO ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;

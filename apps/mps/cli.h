@@ -9,7 +9,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { CLI_SETS = 64, CLI_FILES = 64 };
+enum { CLI_SETS = 64, CLI_FILES = 64, CLI_PLUGINS = 16 };
 
 /* Messages of one of many ranks, until it is known which rank shows its own. */
 typedef struct cli_text {
@@ -24,14 +24,18 @@ typedef struct choices {
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
     const char *set[CLI_SETS + 8]; /* "path=value"; a verb adds its own */
-    const char *out;               /* NULL: as the verb has it */
-    const char *device;            /* NULL: the host */
+    int32_t plugins;
+    const char *plugin[CLI_PLUGINS]; /* files */
+    const char *out;                 /* NULL: as the verb has it */
+    const char *device;              /* NULL: the host */
     const char *degrees, *omega, *period, *amplitude;
-    int32_t threads; /* 0: as the case says */
-    int32_t count;   /* 0: as the verb has it */
-    int32_t fmi;     /* version, 0: as the verb has it */
-    int32_t periods; /* 0: as the verb has it */
-    bool overwrite, resume, quiet, profile, mpi;
+    const char *part; /* "I/N", NULL: all */
+    int32_t threads;  /* 0: as the case says */
+    int32_t jobs;     /* processes; 0: one, this one */
+    int32_t count;    /* 0: as the verb has it */
+    int32_t fmi;      /* version, 0: as the verb has it */
+    int32_t periods;  /* 0: as the verb has it */
+    bool overwrite, resume, quiet, profile, mpi, allow_plugins;
     char command[1024]; /* the whole line */
 } choices;
 
@@ -48,7 +52,12 @@ enum {
     HAS_COUNT = 256,
     HAS_FMI = 512,
     HAS_FREQUENCIES = 1024,
-    HAS_DEVICE = 2048
+    HAS_DEVICE = 2048,
+    HAS_PLUGIN = 4096,
+    HAS_TRUST = 8192, /* --allow-plugins */
+    HAS_JOBS = 16384,
+    HAS_PART = 32768,
+    HAS_MAP = 65536 /* in place of HAS_SET: the texts are in `set` */
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
@@ -64,7 +73,13 @@ typedef struct verb {
 extern const verb cli_verbs[];
 extern const int32_t cli_verb_count;
 
-typedef enum option_kind { OPTION_FLAG, OPTION_TEXT, OPTION_COUNT, OPTION_SET } option_kind;
+typedef enum option_kind {
+    OPTION_FLAG,
+    OPTION_TEXT,
+    OPTION_COUNT,
+    OPTION_SET,
+    OPTION_PLUGIN
+} option_kind;
 
 /* An option: the verbs with its bit have it. */
 typedef struct option {
@@ -85,6 +100,7 @@ int verb_sweep(const choices *c);
 int verb_repeat(const choices *c);
 int verb_converge(const choices *c);
 int verb_coefficients(const choices *c);
+int verb_collect(const choices *c);
 int verb_report(const choices *c);
 int verb_stats(const choices *c);
 int verb_compare(const choices *c);
@@ -98,10 +114,13 @@ int verb_schema(const choices *c);
 /* Read the line; prints help or what is wrong. @return -1: go on; else the exit code */
 int cli_read(choices *c, const verb *v, int argc, char **argv);
 void cli_print_help(const verb *v);
+/* Read the case of a line with its values and plug-ins. */
+mps_status cli_open(const choices *c, mps_case **out);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
 /* Run a case into a folder; `begin` has resume and error, the choices say the rest. @return exit code */
-int cli_run(const choices *c, const mps_job_config *begin, const char *folder);
+/* @param busy  NULL, or out: another process runs in the folder, which is no failure then and gives no message */
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder, bool *busy);
 /* With --mpi among the arguments: begin with MPI, before anything is printed. @return -1: go on; else the exit code */
 int cli_begin(choices *c, int argc, char **argv);
 /* Several processes that are not one run would write to one folder. @return -1: go on; else the exit code */
@@ -118,7 +137,8 @@ void cli_list_cases(FILE *out);
 int cli_flush(const choices *c, int code);
 /* "surge" of "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
-/* The messages of a case. */
-void cli_print_messages(const choices *c, const mps_case *tank);
+/* Bytes of the messages of a case, and print those behind these bytes. */
+size_t cli_messages(const mps_case *tank);
+void cli_print_messages(const choices *c, const mps_case *tank, size_t before);
 
 #endif

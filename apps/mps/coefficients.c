@@ -131,7 +131,7 @@ static int check_amplitude(const coefficients *k)
         mps_case *tank = NULL;
         motion_text(k, degree, "period: 1 s", 1, motion);
         one.set[one.sets++] = motion;
-        const mps_status status = mps_case_read(one.file[0], one.sets, one.set, &tank);
+        const mps_status status = cli_open(&one, &tank);
         /* one value, and not more of the motion behind it */
         const bool bad = size[strcspn(size, ",:#{}[]\"'\n")] || !(fabs(strtod(size, NULL)) > 0) ||
                          amplitude_fails(tank, degree);
@@ -218,7 +218,8 @@ static int run_motion(const coefficients *k, int32_t index, int32_t runs, const 
     if (!k->c->quiet)
         fprintf(stderr, "mps %s: run %d of %d: %s\n", k->c->verb, (int)index + 1, (int)runs,
                 motion);
-    const int code = series_run(&one, folder);
+    bool busy;
+    const int code = series_run(&one, folder, &busy);
     if (code != MPS_EXIT_OK)
         fprintf(stderr, "mps %s: %s %s, exit code %d\n", k->c->verb, folder,
                 code == MPS_EXIT_INTERRUPTED ? "was interrupted" : "failed", code);

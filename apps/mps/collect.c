@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "collect.h"
+#include <errno.h>
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 /* ---- statistics ---- */
 
@@ -189,4 +192,42 @@ void collect_values(const collect *s, FILE *out, const mps_table *first, const c
                                 mps_table_values(rows, j), &config};
             fprintf(out, ",%.9g", known ? STATISTICS[s->entry[k].statistic].find(&one) : NAN);
         }
+}
+
+void collect_text(FILE *out, const char *text)
+{
+    const bool quote = strpbrk(text, ",\"") != NULL;
+    fputs(quote ? ",\"" : ",", out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    if (quote) fputc('"', out);
+}
+
+/* ---- the file ---- */
+
+static void temporary_of(const char *path, char out[SERIES_PATH + 64])
+{
+    snprintf(out, SERIES_PATH + 64, "%s.%ld.tmp", path, (long)getpid());
+}
+
+FILE *collect_open(const char *path)
+{
+    char temporary[SERIES_PATH + 64];
+    temporary_of(path, temporary);
+    return fopen(temporary, "w");
+}
+
+int collect_close(const char *name, FILE *out, const char *path)
+{
+    char temporary[SERIES_PATH + 64];
+    struct stat there;
+    temporary_of(path, temporary);
+    bool good = out && !ferror(out);
+    if (out && fclose(out) != 0) good = false;
+    good = good && rename(temporary, path) == 0;
+    if (!good) fprintf(stderr, "mps %s: %s: %s\n", name, path, strerror(errno));
+    if (!good && stat(temporary, &there) == 0) unlink(temporary);
+    return good ? MPS_EXIT_OK : MPS_EXIT_FAILED;
 }

@@ -33,4 +33,11 @@ void collect_names(const collect *s, FILE *out, const mps_table *rows);
 void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
                     const mps_table *rows);
 
+/* A text as a field of a CSV file, behind a comma. */
+void collect_text(FILE *out, const char *text);
+/* A table that is written beside its place and renamed, since several processes may write it. @return NULL with errno */
+FILE *collect_open(const char *path);
+/* @return exit code; a failure is printed */
+int collect_close(const char *name, FILE *out, const char *path);
+
 #endif

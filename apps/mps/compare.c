@@ -1,35 +1,121 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps compare: how the columns of runs differ from those of the first run, and from a reference. */
+/* mps compare: how the columns of runs differ from those of the first run, from a table, and
+ * from the known values of the case. */
 #include "cli.h"
 #include "constants.h"
 #include "record.h"
 #include <math.h>
+#include <mps/case.h>
 #include <mps/stats.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-static mps_status compare_columns(const mps_stats_config *config, const record *a, int32_t ka,
-                                  const record *b, int32_t kb, mps_comparison *c)
+enum { CELL = 10, NAME = 160 };
+
+/* Two tables, of which one is a run, and what is compared. */
+typedef struct pair {
+    const choices *c;
+    mps_stats_config *config;
+    const record *first, *second;
+    bool reference; /* the first is a table of known values; else both are runs */
+    int shared, compared;
+    /* columns that every run has, in a line behind the others: how many, and the one that
+     * differs most */
+    bool fold;
+    int folded;
+    double worst;
+    const char *worst_name;
+} pair;
+
+/* ---- columns ---- */
+
+static const record *run_of(const pair *p)
 {
-    const mps_series first = {.struct_size = sizeof first,
-                              .n = mps_table_rows(a->table),
-                              .t = mps_table_values(a->table, -1),
-                              .p = mps_table_values(a->table, ka)};
-    const mps_series second = {.struct_size = sizeof second,
-                               .n = mps_table_rows(b->table),
-                               .t = mps_table_values(b->table, -1),
-                               .p = mps_table_values(b->table, kb)};
-    mps_comparison_init(c, sizeof *c);
-    return mps_series_compare(config, &first, &second, c);
+    return p->reference ? p->second : p->first;
 }
 
-enum { CELL = 11 };
-
-static void print_head(const record *a, const record *b)
+static const record *other_of(const pair *p)
 {
-    printf("%s against %s\n", b->place, a->place);
-    printf("  %-24s %11s %11s %11s %11s %11s %11s %11s %11s\n", "column", "rms diff.", "rms of 1st",
-           "peak 1st", "peak 2nd", "at, 1st", "at, 2nd", "later", "phase");
+    return p->reference ? p->first : p->second;
+}
+
+/* The name that the line gives to a column of the run in the other table; its own where it gives
+ * none. */
+static const char *mapped(const choices *c, const char *name)
+{
+    const size_t length = strlen(name);
+    for (int32_t k = 0; k < c->sets; k++)
+        if (strncmp(c->set[k], name, length) == 0 && c->set[k][length] == '=')
+            return c->set[k] + length + 1;
+    return name;
+}
+
+/* A --map that names no column. @return exit code, -1: all are good */
+static int check_map(const pair *p)
+{
+    for (int32_t k = 0; k < p->c->sets; k++) {
+        char name[NAME];
+        const char *equals = strchr(p->c->set[k], '=');
+        snprintf(name, sizeof name, "%.*s",
+                 equals ? (int)(equals - p->c->set[k]) : (int)strlen(p->c->set[k]), p->c->set[k]);
+        const record *const where[2] = {run_of(p), other_of(p)};
+        const char *const wanted[2] = {name, equals ? equals + 1 : ""};
+        for (int i = 0; i < 2; i++) {
+            if (equals && record_find(where[i], wanted[i]) >= 0) continue;
+            fprintf(stderr,
+                    equals ? "mps compare: --map %s: %s has no column '%s'; the nearest is '%s'\n"
+                           : "mps compare: --map %s: COLUMN=NAME is wanted, e.g. P1=pressure\n",
+                    p->c->set[k], where[i]->place, wanted[i], record_nearest(where[i], wanted[i]));
+            return MPS_EXIT_USAGE;
+        }
+    }
+    return -1;
+}
+
+/* One of a unit in units of another; of columns without a unit 1. NAN: they are of different
+ * kinds */
+static double factor_of(const char *from, const char *to)
+{
+    return from[0] && to[0] ? mps_unit_factor(from, to) : 1;
+}
+
+/* The only column of a record with a unit of this kind; -1: there are none or several. */
+static int32_t only_of(const record *r, const char *unit)
+{
+    int32_t found = -1;
+    for (int32_t k = 0; k < mps_table_columns(r->table); k++) {
+        if (!(factor_of(mps_table_unit(r->table, k), unit) > 0)) continue;
+        if (found >= 0) return -1;
+        found = k;
+    }
+    return found;
+}
+
+/* The column of the other table that belongs to column k of the run; -1: none. A reference of a
+ * case without a name belongs to all columns of its unit; a single column of a table to the only
+ * one of its kind. */
+static int32_t partner_of(const pair *p, int32_t k)
+{
+    const record *run = run_of(p), *other = other_of(p);
+    const char *name = mps_table_name(run->table, k), *unit = mps_table_unit(run->table, k);
+    const int32_t found = record_find(other, mapped(p->c, name));
+    if (found >= 0 || p->c->sets > 0 || mps_table_columns(other->table) != 1) return found;
+    const char *only = mps_table_name(other->table, 0), *its = mps_table_unit(other->table, 0);
+    if (!its[0] || !unit[0]) return -1;
+    if (!only[0]) return strcmp(its, unit) == 0 ? 0 : -1;
+    return p->reference && record_find(run, only) < 0 && only_of(run, its) == k ? 0 : -1;
+}
+
+/* ---- figures ---- */
+
+static void print_head(const pair *p)
+{
+    static const char *const head[] = {"rms diff.", "rms of 1st", "peak 1st", "peak 2nd", "at, 1st",
+                                       "at, 2nd",   "later",      "corr.",    "phase"};
+    printf("%s against %s\n  %-24s", p->second->place, p->first->place, "column");
+    for (size_t k = 0; k < sizeof head / sizeof *head; k++) printf(" %*s", CELL, head[k]);
+    printf("\n");
 }
 
 static void print_row(const char *name, const char *unit, const mps_comparison *c)
@@ -39,36 +125,166 @@ static void print_row(const char *name, const char *unit, const mps_comparison *
     for (int k = 0; k < 4; k++) print_quantity(CELL, value[k], unit);
     for (int k = 0; k < 2; k++) print_time(CELL, c->t_peak[k]);
     print_quantity(CELL, c->shift, "s");
+    if (isfinite(c->correlation))
+        printf(" %*.3f", CELL, c->correlation);
+    else
+        printf(" %*s", CELL, "-");
     print_quantity(CELL, c->phase * 180 / acos(-1.0), "deg");
     printf("\n");
 }
 
-/* All columns that both have. @return number of columns that were compared, -1: no memory */
-static int compare_two(mps_stats_config *config, const record *a, const record *b)
+/* Where the two have only a part of their time together. */
+static void print_overlap(const pair *p, const mps_comparison *c, double begin, double end)
 {
-    int shared = 0, compared = 0;
-    const double end = fmin(record_end(a), record_end(b));
-    config->from = end > 0 ? 0.005 * end : -INFINITY; /* without the impulse of the start */
-    for (int32_t ka = 0; ka < mps_table_columns(a->table); ka++) {
-        mps_comparison c;
-        const char *name = mps_table_name(a->table, ka), *unit = mps_table_unit(a->table, ka);
-        const int32_t kb = record_find(b, name);
-        if (kb < 0) continue;
-        const char *other = mps_table_unit(b->table, kb);
-        if (shared++ == 0) print_head(a, b);
-        if (unit[0] && other[0] && strcmp(unit, other) != 0) {
-            printf("  %-24s is in %s there, in %s here\n", name, other, unit);
-            continue;
-        }
-        const mps_status status = compare_columns(config, a, ka, b, kb, &c);
-        if (status == MPS_E_NOMEM) return -1;
-        if (status == MPS_OK) {
-            compared++;
-            print_row(name, unit[0] ? unit : other, &c);
-        } else
-            printf("  %-24s %s\n", name, config->error);
+    const double length = end - begin, common = c->t_last - c->t_first;
+    if (p->reference && mps_table_is_points(p->first->table))
+        printf("  %-24s at %lld of %lld points\n", "", (long long)c->points,
+               (long long)mps_table_rows(p->first->table));
+    else if (common < 0.98 * length)
+        printf("  %-24s only %.4g to %.4g s are in both, %.3g %% of the time of the first\n", "",
+               c->t_first, c->t_last, 100 * common / length);
+}
+
+/* A column that every run has. */
+static void fold(pair *p, const char *name, const mps_comparison *c)
+{
+    const double share = c->rms > 0 ? c->rms / c->rms_first : 0;
+    if (p->folded++ == 0 || share > p->worst) {
+        p->worst = share;
+        p->worst_name = name;
     }
-    return compared;
+}
+
+static void print_folded(const pair *p)
+{
+    if (p->folded == 0) return;
+    printf("  energies and the tank, %d columns: ", p->folded);
+    if (p->worst > 0)
+        printf("at most %.3g %% rms of the first (%s); --map %s=%s shows them\n", 100 * p->worst,
+               p->worst_name, p->worst_name, p->worst_name);
+    else
+        printf("no difference\n");
+}
+
+/* A column as a series; `memory` is freed by the caller. @return false: no memory */
+static bool series_of(const record *r, int32_t k, double factor, mps_series *s, double **memory)
+{
+    const int64_t n = mps_table_rows(r->table);
+    const double *t = mps_table_values(r->table, -1), *p = mps_table_values(r->table, k);
+    double seconds = factor_of(mps_table_unit(r->table, -1), "s");
+    if (isnan(seconds)) seconds = 1;
+    double *both = malloc((size_t)(2 * n + 1) * sizeof *both);
+    *memory = both;
+    if (!both) return false;
+    for (int64_t i = 0; i < n; i++) {
+        both[i] = seconds * t[i];
+        both[n + i] = factor * p[i];
+    }
+    *s = (mps_series){.struct_size = sizeof *s, .n = n, .t = both, .p = both + n};
+    return true;
+}
+
+/* @return false: no memory */
+static bool compare_columns(pair *p, int32_t first, int32_t second)
+{
+    mps_comparison c;
+    mps_series a = {0}, b = {0};
+    double *memory[2] = {NULL, NULL};
+    const char *unit = mps_table_unit(p->first->table, first),
+               *theirs = mps_table_unit(p->second->table, second),
+               *name = mps_table_name(run_of(p)->table, p->reference ? second : first);
+    const double factor = factor_of(theirs, unit);
+    if (p->shared++ == 0) print_head(p);
+    if (isnan(factor)) {
+        printf("  %-24s is in %s there, in %s here: these are of different kinds\n", name, theirs,
+               unit);
+        return true;
+    }
+    mps_comparison_init(&c, sizeof c);
+    mps_status status = MPS_E_NOMEM;
+    if (series_of(p->first, first, 1, &a, &memory[0]) &&
+        series_of(p->second, second, factor, &b, &memory[1]))
+        status = p->reference && mps_table_is_points(p->first->table)
+                     ? mps_points_compare(p->config, &a, &b, &c)
+                     : mps_series_compare(p->config, &a, &b, &c);
+    if (status == MPS_OK) {
+        p->compared++;
+        if (p->fold && mps_table_is_common(run_of(p)->table, p->reference ? second : first))
+            fold(p, name, &c);
+        else {
+            print_row(name, unit[0] ? unit : theirs, &c);
+            print_overlap(p, &c, fmax(a.t[0], p->config->from), a.t[a.n - 1]);
+        }
+    } else if (status != MPS_E_NOMEM)
+        printf("  %-24s %s\n", name, p->config->error);
+    free(memory[0]);
+    free(memory[1]);
+    return status != MPS_E_NOMEM;
+}
+
+/* What there is to compare, for a user who has to map columns. */
+static void print_columns(const record *r)
+{
+    fprintf(stderr, "%s has", r->place);
+    for (int32_t k = 0; k < mps_table_columns(r->table) && k < 40; k++)
+        fprintf(stderr, "%s %s[%s]", k ? "," : "", mps_table_name(r->table, k),
+                mps_table_unit(r->table, k));
+    fprintf(stderr, "\n");
+}
+
+/* All columns that belong together. @return exit code */
+static int compare_two(pair *p)
+{
+    const record *run = run_of(p);
+    const double end = fmin(record_end(p->first), record_end(p->second));
+    const int code = check_map(p);
+    if (code >= 0) return code;
+    p->config->from = end > 0 ? 0.005 * end : -INFINITY; /* without the impulse of the start */
+    for (int32_t k = 0; k < mps_table_columns(run->table); k++)
+        p->fold = p->fold ||
+                  (p->c->sets == 0 && partner_of(p, k) >= 0 && !mps_table_is_common(run->table, k));
+    for (int32_t k = 0; k < mps_table_columns(run->table); k++) {
+        const int32_t other = partner_of(p, k);
+        if (other < 0) continue;
+        if (compare_columns(p, p->reference ? other : k, p->reference ? k : other)) continue;
+        fprintf(stderr, "mps compare: no memory\n");
+        return MPS_EXIT_FAILED;
+    }
+    print_folded(p);
+    if (p->compared > 0) return MPS_EXIT_OK;
+    fprintf(stderr, "mps compare: %s and %s: no column can be compared\n", p->first->place,
+            p->second->place);
+    if (p->shared > 0) return MPS_EXIT_USAGE;
+    print_columns(run);
+    print_columns(other_of(p));
+    fprintf(stderr, "--map COLUMN=NAME says which belong together\n");
+    return MPS_EXIT_USAGE;
+}
+
+/* A run against the known values of its case. @return exit code */
+static int compare_own(const choices *c, mps_stats_config *config, const record *run)
+{
+    int code = MPS_EXIT_OK;
+    int32_t index = 0;
+    for (;; index++) {
+        record reference;
+        const mps_status status = record_read_reference(config, run->place, index, &reference);
+        if (status == MPS_E_NAME) break;
+        if (status != MPS_OK) {
+            fprintf(stderr, "mps compare: %s\n", config->error);
+            return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
+        }
+        pair p = {.c = c, .config = config, .first = &reference, .second = run, .reference = true};
+        const int one = compare_two(&p);
+        if (one > code) code = one;
+        record_free(&reference);
+    }
+    if (index > 0) return code;
+    fprintf(stderr,
+            "mps compare: %s: its case has no 'reference'; name another run or a table to compare "
+            "with\n",
+            run->place);
+    return MPS_EXIT_USAGE;
 }
 
 /* That of the first run that knows one [s]. */
@@ -88,14 +304,17 @@ static int compare_all(const choices *c, mps_stats_config *config, const record 
 {
     config->period = find_period(c, config, all);
     const int32_t last = c->files - 1, runs = all[last].is_folder ? c->files : last;
+    if (c->files == 1) return compare_own(c, config, &all[0]);
     for (int32_t k = 0; k < c->files; k++) {
         const bool reference = k == last && !all[k].is_folder;
         for (int32_t j = reference ? 0 : 1; j < runs && (k == 0 || reference); j++) {
-            const int compared = compare_two(config, &all[k], &all[j]);
-            if (compared > 0) continue;
-            fprintf(stderr, "mps compare: %s and %s: %s\n", all[k].place, all[j].place,
-                    compared < 0 ? "no memory" : "no column can be compared");
-            return compared < 0 ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
+            pair p = {.c = c,
+                      .config = config,
+                      .first = &all[k],
+                      .second = &all[j],
+                      .reference = reference};
+            const int code = compare_two(&p);
+            if (code != MPS_EXIT_OK) return code;
         }
     }
     return MPS_EXIT_OK;
@@ -112,7 +331,7 @@ int verb_compare(const choices *c)
     config.error_size = sizeof error;
     for (int32_t k = 0; k < c->files && code == MPS_EXIT_OK; k++) {
         const mps_status status = record_read(&config, c->file[k], &all[k]);
-        if (status == MPS_OK && !all[k].is_folder && k + 1 < c->files) {
+        if (status == MPS_OK && !all[k].is_folder && (k + 1 < c->files || k == 0)) {
             snprintf(error, sizeof error, "%.400s: is no folder; a reference is the last argument",
                      c->file[k]);
             code = MPS_EXIT_USAGE;

@@ -121,6 +121,14 @@ static bool write_fmu(const char *path, const fmu_about *a, const part *p, const
     return false;
 }
 
+/* The case fails here, not in the importer: models without the load that importers ask for. */
+static bool takes_step(const choices *c, mps_sim *sim)
+{
+    if (mps_load_watch(sim, MPS_LOAD_MASS) >= 0 && mps_step(sim, 1, NULL) >= 0) return true;
+    refuse(c, MPS_EXIT_USAGE, c->file[0], mps_sim_error(sim));
+    return false;
+}
+
 static int make(const choices *c, mps_case *tank, const char *path)
 {
     fmu_about a = {.version = c->fmi ? c->fmi : 3};
@@ -138,6 +146,8 @@ static int make(const choices *c, mps_case *tank, const char *path)
     else if (!write_part(&p[0], fmu_write_description, &a) ||
              !write_part(&p[1], fmu_write_page, &a))
         code = refuse(c, MPS_EXIT_FAILED, path, "no memory");
+    else if (!takes_step(c, a.model.sim))
+        code = MPS_EXIT_USAGE;
     else if (!write_fmu(path, &a, p, mps_case_text(tank)))
         code = refuse(c, MPS_EXIT_FAILED, path, strerror(errno));
     else if (!c->quiet)
@@ -160,6 +170,12 @@ int verb_fmu(const choices *c)
     if (c->out) snprintf(path, sizeof path, "%s", c->out);
     mps_case *tank = cli_case(c, &code);
     if (!tank) return code;
+    if (mps_case_plugin(tank, 0)) {
+        mps_case_destroy(tank);
+        return refuse(c, MPS_EXIT_USAGE, "plugins",
+                      "an FMU has a libmps of its own, which plug-ins cannot use; couple the case "
+                      "by 'mps run', or by a program that loads the plug-in");
+    }
     code = make(c, tank, path);
     mps_case_destroy(tank);
     return cli_flush(c, code);

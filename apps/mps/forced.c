@@ -181,14 +181,12 @@ static bool refuse(const choices *c, const char *folder, const char *why)
 static bool open_record(const choices *c, const char *folder, mps_stats_config *config, char *error,
                         record_of *r)
 {
-    char path[SERIES_PATH + 16];
     mps_table *rows = NULL;
     mps_stats_config_init(config, sizeof *config);
     config->error = error;
     config->error_size = ERROR_SIZE;
-    snprintf(path, sizeof path, "%s/trace.csv", folder);
     if (mps_stats_config_read(folder, config) != MPS_OK ||
-        mps_table_read(config, path, 0, NULL, &rows) != MPS_OK)
+        mps_table_read_run(config, folder, "trace.csv", &rows) != MPS_OK)
         return refuse(c, folder, error);
     *r = (record_of){.rows = rows,
                      .n = mps_table_rows(rows),

@@ -1,25 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps info: what a file is, from its own bytes. */
 #include "cli.h"
+#include "info.h"
+#include "record.h"
+#include "summary.h"
 #include <errno.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { HEAD = 4096 };
-
-/* The beginning of a file. */
-typedef struct head {
-    const char *path;
-    FILE *file;
-    long long size;
-    size_t count;
-    char text[HEAD + 1];
-} head;
-
-/* Whether the beginning holds text: no byte that only binary files have. */
-static bool is_text(const head *h)
+bool is_text(const head *h)
 {
     for (size_t i = 0; i < h->count; i++) {
         const char c = h->text[i];
@@ -32,26 +24,65 @@ static bool is_text(const head *h)
 /* ---- kinds of files ---- */
 
 /* A checkpoint: 16 bytes of head, then parts with a title, bytes of an element, checksum, number of elements. */
+enum { TITLE = 40, PART = TITLE + 16 };
+
+typedef struct part {
+    char title[TITLE];
+    uint32_t bytes;
+    int64_t elements;
+} part;
+
+/* The next part; the file is at its elements then. @return false: it is cut short, or damaged */
+static bool read_part(const head *h, part *p)
+{
+    char text[PART];
+    if (fread(text, 1, PART, h->file) != PART) return false;
+    memcpy(p->title, text, TITLE);
+    memcpy(&p->bytes, text + TITLE, sizeof p->bytes);
+    memcpy(&p->elements, text + TITLE + 8, sizeof p->elements);
+    p->title[TITLE - 1] = '\0';
+    return p->elements >= 0 && p->bytes <= 1u << 30 && p->elements <= h->size;
+}
+
+static long long length_of(const part *p)
+{
+    return (p->elements * (long long)p->bytes + 7) / 8 * 8;
+}
+
+/* Elements of a part as a number, of 8 bytes. */
+static bool read_number(const head *h, const part *p, const char *title, void *out)
+{
+    if (strcmp(p->title, title) != 0 || p->bytes != 8 || p->elements != 1) return false;
+    return fread(out, 8, 1, h->file) == 1 && fseek(h->file, -8, SEEK_CUR) == 0;
+}
+
 static bool tell_checkpoint(const head *h)
 {
-    enum { TITLE = 40, PART = TITLE + 16 };
-    char part[PART];
+    part p;
+    double t = NAN;
+    int64_t step = -1;
+    bool whole = false;
     if (h->count < 16 || memcmp(h->text, "mpsstate", 8) != 0) return false;
-    printf("checkpoint of a run, %lld bytes; 'mps resume' continues from its folder\n", h->size);
-    if (fseek(h->file, 16, SEEK_SET) != 0) return true;
-    while (fread(part, 1, PART, h->file) == PART) {
-        uint32_t bytes;
-        int64_t elements;
-        memcpy(&bytes, part + TITLE, sizeof bytes);
-        memcpy(&elements, part + TITLE + 8, sizeof elements);
-        part[TITLE - 1] = '\0';
-        if (elements < 0 || bytes > 1u << 30 || elements > h->size) return true;
-        const long long length = (elements * (long long)bytes + 7) / 8 * 8;
-        if (strcmp(part, "end") == 0) return true;
-        printf("  %-24s %lld of %u bytes\n", part, (long long)elements, (unsigned)bytes);
-        if (fseek(h->file, (long)length, SEEK_CUR) != 0) return true;
+    for (int pass = 0; pass < 2; pass++) {
+        if (fseek(h->file, 16, SEEK_SET) != 0) return true;
+        if (pass == 1) {
+            printf("checkpoint of a run");
+            if (step >= 0) printf(" at t = %.9g s, after %lld steps", t, (long long)step);
+            printf(", %lld bytes; 'mps resume' continues from its folder\n", h->size);
+        }
+        while (read_part(h, &p)) {
+            whole = strcmp(p.title, "end") == 0;
+            if (whole) break;
+            if (pass == 0)
+                (void)(read_number(h, &p, "state.t", &t) ||
+                       read_number(h, &p, "state.step", &step));
+            if (pass == 1)
+                printf("  %-24s %lld of %u bytes\n", p.title, (long long)p.elements,
+                       (unsigned)p.bytes);
+            if (fseek(h->file, (long)length_of(&p), SEEK_CUR) != 0) break;
+        }
     }
-    printf("  it is cut short\n");
+    if (!whole) printf("  it is cut short, or damaged\n");
     return true;
 }
 
@@ -91,20 +122,6 @@ static bool tell_page(const head *h)
     if (!strstr(h->text, "<!DOCTYPE html") && !strstr(h->text, "<html")) return false;
     printf("page, %lld bytes; open it in a browser; 'mps run' runs the case that it carries\n",
            h->size);
-    return true;
-}
-
-static bool tell_surface(const head *h)
-{
-    uint32_t count;
-    if (strncmp(h->text, "solid", 5) == 0 && strstr(h->text, "facet")) {
-        printf("surface of triangles, ASCII STL, %lld bytes\n", h->size);
-        return true;
-    }
-    if (h->count < 84) return false;
-    memcpy(&count, h->text + 80, sizeof count);
-    if (h->size != 84 + 50LL * count) return false;
-    printf("surface of triangles, binary STL, %u triangles\n", (unsigned)count);
     return true;
 }
 
@@ -154,13 +171,28 @@ static int tell(head *h)
 {
     static bool (*const tells[])(const head *) = {tell_checkpoint, tell_frame, tell_series,
                                                   tell_page,       tell_case,  tell_summary,
-                                                  tell_surface,    tell_table};
+                                                  info_surface,    tell_table};
     h->count = fread(h->text, 1, HEAD, h->file);
     h->text[h->count] = '\0';
     for (size_t i = 0; i < sizeof tells / sizeof *tells; i++)
         if (tells[i](h)) return MPS_EXIT_OK;
     fprintf(stderr, "mps info: %s: is no file of mps\n", h->path);
     return MPS_EXIT_USAGE;
+}
+
+/* The case of a run, and how far it is. */
+static void print_run(const char *path)
+{
+    char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400];
+    summary_text(path, "case", name);
+    summary_text(path, "title", title);
+    printf("folder of a run%s%s%s%s\n", name[0] ? " of " : "", name,
+           strcmp(name, title) != 0 ? ": " : "", strcmp(name, title) != 0 ? title : "");
+    if (summary_unfinished(path, record_last(path), state, sizeof state))
+        printf("  %s\n", state);
+    else if (summary_is_done(path))
+        printf("  done, to t = %.9g s, %.9g steps; 'mps resume %s --set run.until=..' extends it\n",
+               summary_number(path, "t_end"), summary_number(path, "steps"), path);
 }
 
 /* A folder of a run: what is in it to look at. */
@@ -180,7 +212,7 @@ static int tell_folder(const char *path)
         struct stat status;
         snprintf(place, sizeof place, "%s/%s", path, parts[i].file);
         if (stat(place, &status) != 0 || !S_ISREG(status.st_mode)) continue;
-        if (found++ == 0) printf("folder of a run\n");
+        if (found++ == 0) print_run(path);
         printf("  %-16s %s\n", parts[i].file, parts[i].what);
     }
     if (found > 0) return MPS_EXIT_OK;

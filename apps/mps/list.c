@@ -2,11 +2,13 @@
 /* mps list: what the library and the language of cases have. */
 #include "cli.h"
 #include "starts.h"
+#include <dirent.h>
 #include <mps/mps.h>
 #include <mps/model.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 static mps_sim *make_sim(void)
 {
@@ -39,23 +41,43 @@ static bool is_on_path(const char *path, const char *name)
     return false;
 }
 
-/* All keys, or those of one name. @return exit code */
+/* Whether a text has a word, or a part of one, in small or large letters. */
+static bool has_word(const char *text, const char *word)
+{
+    const size_t length = strlen(word);
+    for (; *text; text++)
+        if (strncasecmp(text, word, length) == 0) return true;
+    return false;
+}
+
+static void print_key(const mps_case_key *k)
+{
+    printf("%s%s\n    %s", k->path, k->required ? " (required)" : "", k->help);
+    if (k->kind[0]) printf("; %s", k->kind);
+    if (k->range[0]) printf(", %s", k->range);
+    if (k->otherwise[0]) printf("; default: %s", k->otherwise);
+    if (k->example[0]) printf("; e.g. %s", k->example);
+    printf("\n");
+}
+
+/* All keys; or those of one name, then those whose text or example has it. @return exit code */
 static int list_keys(const char *name)
 {
     mps_case_key k = {.struct_size = sizeof k};
     int32_t count = 0;
-    for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
-        if (!k.path[0] || (name && !is_on_path(k.path, name))) continue;
-        count++;
-        printf("%s%s\n    %s", k.path, k.required ? " (required)" : "", k.help);
-        if (k.kind[0]) printf("; %s", k.kind);
-        if (k.range[0]) printf(", %s", k.range);
-        if (k.otherwise[0]) printf("; default: %s", k.otherwise);
-        if (k.example[0]) printf("; e.g. %s", k.example);
-        printf("\n");
-    }
+    for (int texts = 0; texts < (name ? 2 : 1); texts++)
+        for (int32_t i = 0; mps_case_key_get(i, &k) == MPS_OK; i++) {
+            const bool named = !name || is_on_path(k.path, name);
+            const bool in_text = name && !named &&
+                                 (has_word(k.help, name) || has_word(k.path, name) ||
+                                  has_word(k.example, name));
+            if (!k.path[0] || !(texts ? in_text : named)) continue;
+            count++;
+            print_key(&k);
+        }
     if (count > 0) return MPS_EXIT_OK;
-    fprintf(stderr, "mps list: no key has the name '%s'; 'mps list keys' shows all\n", name);
+    fprintf(stderr, "mps list: no key and no text of one has '%s'; 'mps list keys' shows all\n",
+            name);
     return MPS_EXIT_USAGE;
 }
 
@@ -123,17 +145,106 @@ static void list_measures(void)
                m.help);
 }
 
+/* ---- plug-ins ---- */
+
+enum { WHY_SIZE = 640 };
+
+/* The plug-ins of the line, registered on a simulation where one is given. */
+static int load_plugins(const choices *c, mps_sim *sim, mps_plugin_file **loaded)
+{
+    char why[WHY_SIZE];
+    for (int32_t k = 0; k < c->plugins; k++) {
+        mps_status status = mps_plugin_open(c->plugin[k], &loaded[k], why, sizeof why);
+        if (status == MPS_OK) status = mps_plugin_register(loaded[k], sim, why, sizeof why);
+        if (status == MPS_OK) continue;
+        fprintf(stderr, "mps list: --plugin %s: %s\n", c->plugin[k], why);
+        return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
+    }
+    return MPS_EXIT_OK;
+}
+
+static void list_drive(const mps_drive_ops *drive)
+{
+    for (int32_t j = 0; drive && j < drive->setting_count; j++) {
+        const mps_setting *k = &drive->settings[j];
+        printf("    %s.%s: %s; %g .. %g %s, default %g\n", drive->name, k->key, k->help, k->min,
+               k->max, k->unit, k->initial);
+    }
+}
+
+static void list_plugin(const mps_plugin_file *plugin)
+{
+    static const char *const kind[] = {"use", "run.solver", "run.preconditioner",
+                                       "body.load.plugin", "motion.plugin"};
+    mps_plugin_info info;
+    mps_plugin_item item;
+    mps_plugin_info_init(&info, sizeof info);
+    mps_plugin_item_init(&item, sizeof item);
+    if (mps_plugin_info_get(plugin, &info) != MPS_OK) return;
+    printf("%s %s\n  file %s\n  SHA-256 %s\n", info.name, info.version, info.path, info.sha256);
+    for (int32_t i = 0; mps_plugin_item_get(plugin, i, &item) == MPS_OK; i++) {
+        printf("  %s: %-20s %s\n", kind[item.kind], item.name, item.help);
+        list_drive(item.drive);
+    }
+}
+
+/* Those of the folders of MPS_PLUGIN_PATH. A file that is no plug-in is named with the reason. */
+static void list_path(void)
+{
+    const char *at = getenv("MPS_PLUGIN_PATH");
+    char name[1024], why[WHY_SIZE];
+    for (; at && *at; at += strcspn(at, ":"), at += *at == ':') {
+        const int length = (int)strcspn(at, ":");
+        snprintf(name, sizeof name, "%.*s", length, at);
+        DIR *folder = length > 0 ? opendir(name) : NULL;
+        for (struct dirent *e; folder && (e = readdir(folder)) != NULL;) {
+            const size_t n = strlen(e->d_name);
+            mps_plugin_file *plugin = NULL;
+            if (n < 4 || strcmp(e->d_name + n - 3, ".so") != 0) continue;
+            snprintf(name, sizeof name, "%.*s/%.255s", length < 700 ? length : 700, at, e->d_name);
+            if (mps_plugin_open(name, &plugin, why, sizeof why) == MPS_OK)
+                list_plugin(plugin);
+            else
+                printf("%s: %s\n", name, why);
+            mps_plugin_close(plugin);
+        }
+        if (folder) closedir(folder);
+    }
+}
+
+static void list_plugins(const choices *c, mps_plugin_file *const *loaded)
+{
+    for (int32_t k = 0; k < c->plugins; k++) list_plugin(loaded[k]);
+    if (c->plugins == 0) list_path();
+}
+
+enum { LISTS = 8 };
+
+static void print_list(const choices *c, int chosen, const mps_sim *sim, int *code,
+                       mps_plugin_file *const *loaded)
+{
+    if (chosen == 0) cli_list_cases(stdout);
+    if (chosen == 1) *code = list_keys(c->files > 1 ? c->file[1] : NULL);
+    if (chosen == 2) list_models(sim);
+    if (chosen == 3) list_settings(sim);
+    if (chosen == 4) list_solvers(sim);
+    if (chosen == 5) list_units();
+    if (chosen == 6) list_measures();
+    if (chosen == 7) list_plugins(c, loaded);
+}
+
 int verb_list(const choices *c)
 {
-    static const char *const all[] = {"cases",   "keys",  "models",  "settings",
-                                      "solvers", "units", "measures"};
+    static const char *const all[LISTS] = {"cases",   "keys",  "models",   "settings",
+                                           "solvers", "units", "measures", "plugins"};
+    mps_plugin_file *loaded[CLI_PLUGINS] = {NULL};
     const char *what = c->files ? c->file[0] : "";
     int chosen = -1;
-    for (int i = 0; i < 7; i++)
+    for (int i = 0; i < LISTS; i++)
         if (strcmp(what, all[i]) == 0) chosen = i;
     if (chosen < 0) {
         if (what[0]) fprintf(stderr, "mps list: '%s' is no list\n", what);
-        for (int i = 0; i < 7; i++)
+        for (int i = 0; i < LISTS; i++)
             fprintf(what[0] ? stderr : stdout, "mps list %s%s\n", all[i], i == 1 ? " [NAME]" : "");
         return what[0] ? MPS_EXIT_USAGE : MPS_EXIT_OK;
     }
@@ -142,18 +253,13 @@ int verb_list(const choices *c)
         return MPS_EXIT_USAGE;
     }
     mps_sim *sim = make_sim();
-    int code = MPS_EXIT_OK;
     if (!sim) {
         fprintf(stderr, "mps list: no memory\n");
         return MPS_EXIT_FAILED;
     }
-    if (chosen == 0) cli_list_cases(stdout);
-    if (chosen == 1) code = list_keys(c->files > 1 ? c->file[1] : NULL);
-    if (chosen == 2) list_models(sim);
-    if (chosen == 3) list_settings(sim);
-    if (chosen == 4) list_solvers(sim);
-    if (chosen == 5) list_units();
-    if (chosen == 6) list_measures();
+    int code = load_plugins(c, sim, loaded);
+    if (code == MPS_EXIT_OK) print_list(c, chosen, sim, &code, loaded);
     mps_sim_destroy(sim);
+    for (int32_t k = 0; k < c->plugins; k++) mps_plugin_close(loaded[k]);
     return cli_flush(c, code);
 }

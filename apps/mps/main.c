@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps: tanks, liquids and motions from case files. */
 #include "cli.h"
+#include "record.h"
 #include <fcntl.h>
 #include <mps/mps.h>
 #include <signal.h>
@@ -31,30 +32,51 @@ static const verb *find_verb(const char *name)
     return NULL;
 }
 
+/* A verb that differs by one or two letters is proposed; without one all are listed. */
+static void refuse_verb(const char *name)
+{
+    const char *best = NULL;
+    size_t least = strlen(name) > 3 ? 3 : 2;
+    for (int i = 0; i < cli_verb_count; i++) {
+        const size_t letters = record_distance(name, cli_verbs[i].name);
+        if (letters >= least) continue;
+        least = letters;
+        best = cli_verbs[i].name;
+    }
+    fprintf(stderr, "mps: '%s' is no verb%s%s%s\n", name, best ? "; the nearest is '" : "",
+            best ? best : "", best ? "'" : "");
+    if (best)
+        fprintf(stderr, "'mps --help' lists all verbs\n");
+    else
+        print_all(stderr);
+}
+
 int main(int argc, char **argv)
 {
     static choices c;
     fill_streams();
     signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
+    c.verb = argc < 2 ? "" : argv[1];
     if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0) {
         print_all(argc < 2 ? stderr : stdout);
-        return argc < 2 ? MPS_EXIT_USAGE : MPS_EXIT_OK;
+        return cli_flush(&c, argc < 2 ? MPS_EXIT_USAGE : MPS_EXIT_OK);
     }
     if (strcmp(argv[1], "--version") == 0) {
         printf("mps, libmps %s\n", mps_version(NULL, NULL, NULL));
-        return MPS_EXIT_OK;
+        return cli_flush(&c, MPS_EXIT_OK);
     }
     const verb *v = find_verb(argv[1]);
     if (!v) {
-        fprintf(stderr, "mps: '%s' is no verb\n", argv[1]);
-        print_all(stderr);
+        refuse_verb(argv[1]);
         return MPS_EXIT_USAGE;
     }
     c.program = argv[0];
     c.verb = v->name;
     int code = cli_begin(&c, argc, argv);
-    if (code >= 0) return code;
+    if (code >= 0) return cli_flush(&c, code);
     code = cli_agree(&c, cli_read(&c, v, argc, argv));
     if (code < 0 && (v->options & HAS_THREADS)) code = cli_check_alone(&c);
-    return code >= 0 ? code : v->run(&c);
+    return cli_flush(
+        &c,
+        code >= 0 ? code : v->run(&c)); /* of all verbs: a text that is not written is a failure */
 }

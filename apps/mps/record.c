@@ -6,7 +6,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { PATH_ROOM = 4096, WORD_ROOM = 64 };
+enum { WORD_ROOM = 64 };
 
 bool record_path(const char *folder, const char *name, char *out, size_t size)
 {
@@ -25,15 +25,22 @@ static mps_status fail(const mps_stats_config *config, mps_status status, const 
 
 mps_status record_read(const mps_stats_config *config, const char *place, record *r)
 {
-    char path[PATH_ROOM];
     struct stat status;
     *r = (record){.place = place};
     if (stat(place, &status) != 0)
         return fail(config, MPS_E_IO, place, "there is no such folder or file");
     r->is_folder = S_ISDIR(status.st_mode);
-    if (r->is_folder && !record_path(place, "probes.csv", path, sizeof path))
-        return fail(config, MPS_E_ARG, place, "the name is too long");
-    return mps_table_read(config, r->is_folder ? path : place, 0, NULL, &r->table);
+    return r->is_folder ? mps_table_read_run(config, place, "probes.csv", &r->table)
+                        : mps_table_read(config, place, 0, NULL, &r->table);
+}
+
+mps_status record_read_reference(const mps_stats_config *config, const char *folder, int32_t index,
+                                 record *r)
+{
+    *r = (record){.place = folder};
+    const mps_status status = mps_table_read_reference(config, folder, index, &r->table);
+    if (status == MPS_OK) r->place = mps_table_label(r->table);
+    return status;
 }
 
 void record_free(record *r)
@@ -49,8 +56,7 @@ int32_t record_find(const record *r, const char *name)
     return -1;
 }
 
-/* Letters to add, to drop or to replace, of the first WORD_ROOM of each. */
-static size_t distance(const char *a, const char *b)
+size_t record_distance(const char *a, const char *b)
 {
     size_t row[WORD_ROOM + 1];
     const size_t la = strnlen(a, WORD_ROOM), lb = strnlen(b, WORD_ROOM);
@@ -75,7 +81,7 @@ const char *record_nearest(const record *r, const char *name)
     size_t least = SIZE_MAX;
     for (int32_t k = 0; k < mps_table_columns(r->table); k++) {
         const char *known = mps_table_name(r->table, k);
-        const size_t letters = distance(name, known);
+        const size_t letters = record_distance(name, known);
         if (letters >= least) continue;
         least = letters;
         best = known;
@@ -87,4 +93,14 @@ double record_end(const record *r)
 {
     const int64_t rows = mps_table_rows(r->table);
     return rows > 0 ? mps_table_values(r->table, -1)[rows - 1] : NAN;
+}
+
+double record_last(const char *folder)
+{
+    mps_stats_config config;
+    record r;
+    mps_stats_config_init(&config, sizeof config);
+    const double t = record_read(&config, folder, &r) == MPS_OK ? record_end(&r) : NAN;
+    record_free(&r);
+    return t;
 }

@@ -5,6 +5,7 @@
 
 #include <mps/series.h>
 #include <stdbool.h>
+#include <stddef.h>
 
 /* The record of a run, or a table alone. */
 typedef struct record {
@@ -18,10 +19,17 @@ bool record_path(const char *folder, const char *name, char *out, size_t size);
 /* Read probes.csv of a folder, or a CSV file. A failure is a text in config->error. */
 mps_status record_read(const mps_stats_config *config, const char *place, record *r);
 void record_free(record *r);
+/* Known values of the case of a run. MPS_E_NAME without a text: there are no more. */
+mps_status record_read_reference(const mps_stats_config *config, const char *folder, int32_t index,
+                                 record *r);
 /* A column by its name; -1: there is none. */
 int32_t record_find(const record *r, const char *name);
 /* The column with the most similar name, "" without columns. */
 const char *record_nearest(const record *r, const char *name);
+/* Letters to add, to drop or to replace, so that one word becomes the other; of their first 64 letters. */
+size_t record_distance(const char *a, const char *b);
+/* Last time of probes.csv in a folder, NAN without rows. */
+double record_last(const char *folder);
 /* Last time of the table, NAN without rows. */
 double record_end(const record *r);
 

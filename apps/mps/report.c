@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps report: report.html of a folder, made again. */
 #include "constants.h"
+#include "record.h"
+#include "summary.h"
 #include <mps/job.h>
 #include <mps/page.h>
 #include <stdio.h>
@@ -29,5 +31,7 @@ int verb_report(const choices *c)
     printf("%s/report.html: %.2g MB, %lld particles, %d frames\n", c->file[0],
            1e-6 * (double)info.bytes, (long long)info.particles, (int)info.frames);
     if (info.left_out[0]) printf("%s\n", info.left_out);
+    if (summary_unfinished(c->file[0], record_last(c->file[0]), k.error, sizeof k.error))
+        printf("%s\n", k.error);
     return MPS_EXIT_OK;
 }

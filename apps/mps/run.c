@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps run, mps resume. */
 #include "cli.h"
+#include "summary.h"
 #include <mps/mps.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { ERROR_SIZE = 640, PATH_SIZE = 1024 };
+enum { ERROR_SIZE = 1024, PATH_SIZE = 1024 };
 
 /* Exit code of a failure to begin. */
 static int code_of(mps_status status)
@@ -17,24 +18,27 @@ static int code_of(mps_status status)
 }
 
 /* Build and run a case that was read. */
-static int run_case(const choices *c, mps_case *tank, const mps_job_config *config)
+static int run_case(const choices *c, mps_case *tank, const mps_job_config *config, bool *busy)
 {
     mps_job *job;
     mps_sim *sim;
-    const int32_t before = mps_case_message_count(tank);
+    const size_t before = cli_messages(tank);
     if (mps_case_sweep_count(tank) > 0) {
         cli_say(c, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb, c->file[0]);
         return MPS_EXIT_USAGE;
     }
     const mps_status status = mps_case_job(tank, config, &job, &sim);
+    if (busy) *busy = status == MPS_E_BUSY;
+    if (status == MPS_E_BUSY && busy) return MPS_EXIT_USAGE;
     if (status != MPS_OK) {
-        if (mps_case_message_count(tank) > before)
-            cli_print_messages(c, tank);
+        if (cli_messages(tank) > before)
+            cli_print_messages(c, tank, before);
         else
             cli_say(c, "mps %s: %s\n", c->verb,
                     config->error[0] ? config->error : mps_status_text(status));
         return code_of(status);
     }
+    if (!c->quiet) cli_print_messages(c, tank, before);
     const int32_t code = mps_job_run(job, sim);
     mps_sim_destroy(sim);
     mps_job_destroy(job);
@@ -52,7 +56,7 @@ static choices with_threads(const choices *c, char *text, size_t size)
     return all;
 }
 
-int cli_run(const choices *c, const mps_job_config *begin, const char *folder)
+int cli_run(const choices *c, const mps_job_config *begin, const char *folder, bool *busy)
 {
     mps_job_config config = *begin;
     char threads[48];
@@ -68,7 +72,7 @@ int cli_run(const choices *c, const mps_job_config *begin, const char *folder)
     config.ranks = c->kept ? &c->kept->ranks : NULL;
     mps_case *tank = cli_case(&all, &code);
     code = cli_agree(c, code);
-    if (code < 0) code = cli_end(c, run_case(c, tank, &config));
+    if (code < 0) code = cli_end(c, run_case(c, tank, &config, busy));
     mps_case_destroy(tank);
     return code;
 }
@@ -82,19 +86,21 @@ int verb_run(const choices *c)
     config.error_size = sizeof error;
     config.resume = c->resume;
     cli_stem(c->file[0], stem, sizeof stem);
-    return cli_run(c, &config, c->out ? c->out : stem);
+    return cli_run(c, &config, c->out ? c->out : stem, NULL);
 }
 
 int verb_resume(const choices *c)
 {
-    char error[ERROR_SIZE] = "", path[PATH_SIZE];
+    char error[ERROR_SIZE] = "", path[PATH_SIZE], name[SUMMARY_TEXT];
     choices all = *c;
     mps_job_config config;
     mps_job_config_init(&config, sizeof config);
     config.error = error;
     config.error_size = sizeof error;
     config.resume = 1;
+    /* as the run began with it: the name of its file is "case" */
+    if (summary_text(c->file[0], "case", name)) config.name = name;
     snprintf(path, sizeof path, "%s/case.yaml", c->file[0]);
     all.file[0] = path;
-    return cli_run(&all, &config, c->file[0]);
+    return cli_run(&all, &config, c->file[0], NULL);
 }

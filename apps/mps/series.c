@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Several runs of one case, a folder each. */
-#include "series.h"
+#include "jobs.h"
+#include "summary.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-enum { ERROR_SIZE = 640, LINE_SIZE = 4096 };
+enum { ERROR_SIZE = 1024, THREADS = 2 /* of a run by default */ };
 
 bool series_folder(const char *folder, int64_t index, char out[SERIES_PATH])
 {
@@ -33,30 +34,6 @@ static bool is_there(const char *folder, const char *name)
     FILE *file = open_in(folder, name);
     if (file) fclose(file);
     return file != NULL;
-}
-
-static bool is_done(const char *folder)
-{
-    char line[LINE_SIZE];
-    bool done = false;
-    FILE *in = open_in(folder, "summary.json");
-    while (in && fgets(line, sizeof line, in))
-        done = done || strstr(line, "\"status\": \"ok\"") != NULL;
-    if (in) fclose(in);
-    return done;
-}
-
-/* dp as it was built: a tank can only have some. nan: not known. */
-static double built_dp(const char *folder)
-{
-    static const char key[] = "  \"dp\": ";
-    char line[LINE_SIZE];
-    double dp = NAN;
-    FILE *in = open_in(folder, "summary.json");
-    while (in && isnan(dp) && fgets(line, sizeof line, in))
-        if (strncmp(line, key, sizeof key - 1) == 0) dp = strtod(line + sizeof key - 1, NULL);
-    if (in) fclose(in);
-    return dp;
 }
 
 /* Next line of a text, without the threads: results do not depend on them. */
@@ -104,41 +81,51 @@ static int refuse_other(const choices *c, const char *folder)
     return MPS_EXIT_USAGE;
 }
 
-int series_run(const choices *c, const char *folder)
+/* With several processes, so many threads that all processors have work; results do not depend on them. */
+static void share_processors(choices *one, const mps_case *tank)
+{
+    static const char threads[] = "\n  threads: ";
+    const char *line = tank ? strstr(mps_case_text(tank), threads) : NULL;
+    const int32_t asked = line ? (int32_t)strtol(line + sizeof threads - 1, NULL, 10) : THREADS,
+                  most = jobs_processors() / one->jobs;
+    if (one->jobs > 1 && one->threads == 0 && asked > most) one->threads = most > 1 ? most : 1;
+}
+
+int series_run(const choices *c, const char *folder, bool *busy)
 {
     char error[ERROR_SIZE] = "";
     choices one = *c;
+    mps_case *tank = NULL;
     mps_job_config config;
     mps_job_config_init(&config, sizeof config);
     config.error = error;
     config.error_size = sizeof error;
-    if (is_there(folder, "case.yaml") && !c->overwrite) {
-        mps_case *tank = NULL;
-        const bool same = mps_case_read(c->file[0], c->sets, c->set, &tank) == MPS_OK &&
-                          same_case(tank, folder);
-        mps_case_destroy(tank);
-        if (!same) return refuse_other(c, folder);
-        if (is_done(folder)) {
-            if (!c->quiet) fprintf(stderr, "mps %s: %s: is done already\n", c->verb, folder);
-            return MPS_EXIT_OK;
-        }
-        config.resume = is_there(folder, "checkpoint.mps");
-        one.overwrite = !config.resume; /* killed, or failed: what is there is no use */
+    const bool read = cli_open(c, &tank) == MPS_OK;
+    if (read && c->jobs > 1) share_processors(&one, tank);
+    const bool earlier = is_there(folder, "case.yaml") && !c->overwrite,
+               same = earlier && read && same_case(tank, folder);
+    mps_case_destroy(tank);
+    if (earlier && !same) return refuse_other(c, folder);
+    if (same && summary_is_done(folder)) {
+        if (!c->quiet) fprintf(stderr, "mps %s: %s: is done already\n", c->verb, folder);
+        return MPS_EXIT_OK;
     }
-    return cli_run(&one, &config, folder);
+    config.resume = same;
+    const int code = cli_run(&one, &config, folder, busy);
+    /* another process ended it after it was looked at here */
+    return code == MPS_EXIT_USAGE && same && summary_is_done(folder) ? MPS_EXIT_OK : code;
 }
 
 mps_table *series_table(const choices *c, const char *folder)
 {
-    char path[SERIES_PATH + 32], error[ERROR_SIZE] = "";
+    char error[ERROR_SIZE] = "";
     mps_stats_config config;
     mps_table *rows = NULL;
-    if (!is_done(folder)) return NULL;
+    if (!summary_is_done(folder)) return NULL;
     mps_stats_config_init(&config, sizeof config);
     config.error = error;
     config.error_size = sizeof error;
-    snprintf(path, sizeof path, "%s/probes.csv", folder);
-    if (mps_table_read(&config, path, 0, NULL, &rows) == MPS_OK) return rows;
+    if (mps_table_read_run(&config, folder, "probes.csv", &rows) == MPS_OK) return rows;
     fprintf(stderr, "mps %s: %s\n", c->verb, error);
     return NULL;
 }
@@ -189,31 +176,41 @@ static int read_dp(const choices *c, double *dp, char unit[SERIES_DP])
     return MPS_EXIT_OK;
 }
 
+/* Runs that differ by their spacing. */
+typedef struct spacings {
+    const double *factor;
+    double given;
+    char unit[SERIES_DP], set[2 * SERIES_DP + 8], step[64];
+    bool steps;
+} spacings;
+
+static bool set_spacing(void *user, int64_t index, choices *one)
+{
+    spacings *s = user;
+    const double factor = s->factor[index];
+    snprintf(s->set, sizeof s->set, "dp=%.9g%s", s->given * factor, s->unit);
+    one->set[one->sets++] = s->set;
+    snprintf(s->step, sizeof s->step, "run.step_factor=%.9g", factor);
+    if (s->steps) one->set[one->sets++] = s->step;
+    return true;
+}
+
 int series_of_dp(const choices *c, int32_t count, const double *factor, bool steps,
                  mps_table **rows, double *dp)
 {
-    char place[SERIES_PATH], folder[SERIES_PATH], set[2 * SERIES_DP + 8], unit[SERIES_DP], step[64];
-    double given = 0;
-    int worst = read_dp(c, &given, unit);
+    spacings s = {.factor = factor, .steps = steps};
+    plan p = {.c = c, .runs = count, .set = set_spacing, .user = &s};
+    char folder[SERIES_PATH];
+    int worst = read_dp(c, &s.given, s.unit);
     if (worst != MPS_EXIT_OK) return worst;
-    series_place(c, place);
-    for (int32_t k = 0; k < count; k++) {
-        choices one = *c;
-        snprintf(set, sizeof set, "dp=%.9g%s", given * factor[k], unit);
-        one.set[one.sets++] = set;
-        snprintf(step, sizeof step, "run.step_factor=%.9g", factor[k]);
-        if (steps) one.set[one.sets++] = step;
-        const bool named = series_folder(place, k, folder);
-        if (!c->quiet)
-            fprintf(stderr, "mps %s: run %d of %d: %s%s%s\n", c->verb, (int)k + 1, (int)count, set,
-                    steps ? ", " : "", steps ? step : "");
-        const int code = named ? series_run(&one, folder) : MPS_EXIT_USAGE;
-        if (code == MPS_EXIT_INTERRUPTED) return code;
-        if (code != MPS_EXIT_OK)
-            fprintf(stderr, "mps %s: %s failed, exit code %d: %s\n", c->verb, folder, code, set);
-        if (code > worst) worst = code;
-        rows[k] = code == MPS_EXIT_OK ? series_table(c, folder) : NULL;
-        dp[k] = rows[k] ? built_dp(folder) : NAN;
+    series_place(c, p.place);
+    worst = plan_run(&p);
+    for (int32_t k = 0; p.code && k < count; k++) {
+        const bool done = p.code[k] == MPS_EXIT_OK && series_folder(p.place, k, folder);
+        rows[k] = done ? series_table(c, folder) : NULL;
+        dp[k] = rows[k] ? summary_number(folder, "dp") : NAN;
     }
+    if (p.code) plan_say_open(&p);
+    free(p.code);
     return worst;
 }

@@ -13,8 +13,8 @@ bool series_folder(const char *folder, int64_t index, char out[SERIES_PATH]);
 /* The folder that the user names, or the name of the case. */
 void series_place(const choices *c, char out[SERIES_PATH]);
 /* A run with its values as sets of `c`. One that is done is skipped, an interrupted one goes on, one of another case is refused.
- * @return its exit code */
-int series_run(const choices *c, const char *folder);
+ * @param busy  out: another process has it @return its exit code */
+int series_run(const choices *c, const char *folder, bool *busy);
 /* Rows of a run that is done. @return NULL: it is not done, or cannot be read */
 mps_table *series_table(const choices *c, const char *folder);
 /* Text of a line "key: text" of a case as it is run; without quotes. @return false: there is none, or no room */

@@ -3,12 +3,14 @@
 #include "cli.h"
 #include "constants.h"
 #include "record.h"
+#include "summary.h"
 #include <errno.h>
 #include <math.h>
 #include <mps/stats.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { HIGHEST = 10, PATH_ROOM = 4096 };
 
@@ -100,37 +102,74 @@ static void print_highest(const mps_impacts *impacts)
     }
 }
 
-static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name, double scale)
+/* The run is a model of a larger tank, or of another liquid. */
+static bool is_scaled(const mps_impacts_info *info)
+{
+    return info->pressure_scale != 1 || info->time_scale != 1;
+}
+
+/* "3.59 kPa", or "3.59 kPa in the model (144 kPa at full scale)"; valid until the second call
+ * from now. */
+static const char *both(double value, const mps_impacts_info *info)
+{
+    static char text[2][96];
+    static int next;
+    if (!is_scaled(info)) return quantity(value, "Pa");
+    next = !next;
+    snprintf(text[next], sizeof text[next], "%s in the model (%s at full scale)",
+             quantity(value, "Pa"), quantity(info->pressure_scale * value, "Pa"));
+    return text[next];
+}
+
+static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name,
+                      const mps_impacts_info *info)
 {
     mps_fit fit;
     mps_fit_init(&fit, sizeof fit);
     if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
-    printf("    %-19s %s", name, quantity(scale * fit.value, "Pa"));
+    printf("    %-19s %s", name, both(fit.value, info));
     if (isfinite(fit.value_band[0]))
-        printf(", band %s to %s", quantity(scale * fit.value_band[0], "Pa"),
-               quantity(scale * fit.value_band[1], "Pa"));
+        printf(", band %s to %s", both(fit.value_band[0], info), both(fit.value_band[1], info));
+    printf("\n");
+}
+
+/* The end of a record with as many events as a fit needs, at this rate, with two digits. */
+static double wanted_end(const mps_impacts_info *info, const mps_stats_config *c)
+{
+    const double end = info->t_first + c->least_events / info->rate,
+                 digit = pow(10, floor(log10(end)) - 1);
+    return digit * ceil(end / digit);
+}
+
+static void print_too_few(const mps_impacts_info *info, const mps_stats_config *c, const record *r)
+{
+    char path[PATH_ROOM];
+    printf("  no distribution is fitted: that needs %d events", (int)c->least_events);
+    if (info->events > 1) {
+        printf(", at this rate a record of about %s", quantity(c->least_events / info->rate, "s"));
+        if (r->is_folder && record_path(r->place, "case.yaml", path, sizeof path) &&
+            access(path, R_OK) == 0)
+            printf(": mps resume %s --set run.until='%.9g s'", r->place, wanted_end(info, c));
+    }
     printf("\n");
 }
 
 static void print_value(const mps_impacts *impacts, const mps_impacts_info *info,
-                        const mps_stats_config *c)
+                        const mps_stats_config *c, const record *r)
 {
     if (info->unresolved > 0)
         printf("  %lld of %lld rise or decay faster than the computation resolves: their peaks "
                "depend on dp\n",
                (long long)info->unresolved, (long long)info->events);
     if (info->events < c->least_events) {
-        printf("  no distribution is fitted: that needs %d events", (int)c->least_events);
-        if (info->events > 1)
-            printf(", at this rate a record of about %s",
-                   quantity(c->least_events / info->rate, "s"));
-        printf("\n");
+        print_too_few(info, c, r);
         return;
     }
-    printf("  exceeded once in %.4g h (%s events), for screening, not for design:\n",
-           c->exposure / 3600, quantity(info->exposure_events, ""));
-    print_fit(impacts, MPS_FIT_WEIBULL, "Weibull", info->pressure_scale);
-    print_fit(impacts, MPS_FIT_PARETO, "generalised Pareto", info->pressure_scale);
+    printf("  exceeded once in %.4g h", c->exposure / 3600);
+    if (is_scaled(info)) printf(" at full scale, %.4g h in the model", info->exposure / 3600);
+    printf(" (%s events), for screening, not for design:\n", quantity(info->exposure_events, ""));
+    print_fit(impacts, MPS_FIT_WEIBULL, "Weibull", info);
+    print_fit(impacts, MPS_FIT_PARETO, "generalised Pareto", info);
     if (info->long_exposure)
         printf("    this time is more than %.4g lengths of the record: extrapolated\n",
                c->exposure_ratio);
@@ -138,7 +177,8 @@ static void print_value(const mps_impacts *impacts, const mps_impacts_info *info
         printf("    successive peaks depend on each other: the bands are too narrow\n");
 }
 
-static void print_signal(const char *name, const mps_impacts *impacts, const mps_stats_config *c)
+static void print_signal(const char *name, const mps_impacts *impacts, const mps_stats_config *c,
+                         const record *r)
 {
     mps_impact high;
     mps_impacts_info info;
@@ -154,7 +194,11 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
     printf("%s: %lld event%s, %s a minute", name, (long long)info.events,
            info.events == 1 ? "" : "s", quantity(60 * info.rate, ""));
     if (mps_impacts_highest(impacts, 0, &high) == MPS_OK)
-        printf(", highest %s at %.5g s", quantity(high.peak, "Pa"), high.t);
+        printf(", highest %s at %.5g s", both(high.peak, &info), high.t);
+    if (is_scaled(&info))
+        printf("\n  a model: at full scale pressures are %.4g times and times %.4g times as large; "
+               "all but 'at full scale' is of the model",
+               info.pressure_scale, info.time_scale);
     printf("\n  above %s%s, until %s below it, from %s to %s; %lld left out at the ends\n",
            quantity(info.threshold, "Pa"),
            isnan(c->threshold) ? " (by deviations: set impacts.threshold)" : "",
@@ -164,7 +208,7 @@ static void print_signal(const char *name, const mps_impacts *impacts, const mps
         printf("  the pressure is above that where the record begins or ends: a larger "
                "impacts.threshold may find peaks\n");
     print_highest(impacts);
-    print_value(impacts, &info, c);
+    print_value(impacts, &info, c, r);
 }
 
 /* ---- files ---- */
@@ -187,7 +231,13 @@ static int write_file(const char *folder, const char *name, const signals *s, bo
         free(text);
         return MPS_EXIT_FAILED;
     }
-    FILE *file = record_path(folder, name, path, sizeof path) ? fopen(path, "wb") : NULL;
+    FILE *file = NULL;
+    if (record_path(folder, name, path, sizeof path)) {
+        remove(path); /* where it is a link, the file behind it stays as it is */
+        file = fopen(path, "wbx");
+    } else {
+        errno = ENAMETOOLONG;
+    }
     bool done = file && fwrite(text, 1, size - 1, file) == size - 1;
     if (file && fclose(file) != 0) done = false;
     if (!done)
@@ -219,8 +269,10 @@ static int run_stats(const choices *c, constants *k, const record *r, signals *s
         fprintf(stderr, "mps stats: %s: %s\n", r->place, k->error);
         return status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE;
     }
+    if (r->is_folder && summary_unfinished(r->place, record_end(r), k->error, sizeof k->error))
+        printf("%s\n", k->error);
     constants_print(k, c, r->place);
-    for (int32_t i = 0; i < s->count; i++) print_signal(s->name[i], s->impacts[i], &k->used);
+    for (int32_t i = 0; i < s->count; i++) print_signal(s->name[i], s->impacts[i], &k->used, r);
     code = write_file(r->place, "statistics.json", s, true);
     return code == MPS_EXIT_OK ? write_file(r->place, "statistics.csv", s, false) : code;
 }

@@ -36,6 +36,12 @@ MPS_API fmi2_status_get fmi2GetStatus;
 MPS_API fmi2_real_status_get fmi2GetRealStatus;
 MPS_API fmi2_flag_status_get fmi2GetBooleanStatus;
 
+/* What a call cannot do without: an importer that gives NULL gets an error. */
+#define NEEDS(what)                    \
+    do {                               \
+        if (!(what)) return FMU_ERROR; \
+    } while (0)
+
 static void say(void *user, fmu_status status, const char *text)
 {
     static const char *const category[] = {"logAll", "logStatusWarning", "logStatusDiscard",
@@ -58,6 +64,7 @@ const char *fmi2GetVersion(void)
 
 fmi2_status fmi2SetDebugLogging(void *c, int on, size_t count, const char *const *categories)
 {
+    NEEDS(c);
     (void)count;
     (void)categories;
     ((instance *)c)->tank->chatty = on != 0;
@@ -132,6 +139,7 @@ void fmi2FreeInstance(void *c)
 fmi2_status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance, double start,
                                 int stop_defined, double stop)
 {
+    NEEDS(c);
     instance *i = c;
     (void)tolerance_defined; /* the case says it */
     (void)tolerance;
@@ -145,37 +153,44 @@ fmi2_status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance
 
 fmi2_status fmi2EnterInitializationMode(void *c)
 {
+    NEEDS(c);
     return fmu_initialise(((instance *)c)->tank, ((instance *)c)->start);
 }
 
 fmi2_status fmi2ExitInitializationMode(void *c)
 {
+    NEEDS(c);
     return fmu_begin(((instance *)c)->tank);
 }
 
 fmi2_status fmi2Terminate(void *c)
 {
+    NEEDS(c);
     return fmu_terminate(((instance *)c)->tank);
 }
 
 fmi2_status fmi2Reset(void *c)
 {
+    NEEDS(c);
     ((instance *)c)->start = 0;
     return fmu_reset(((instance *)c)->tank);
 }
 
 fmi2_status fmi2GetReal(void *c, const fmi2_reference *reference, size_t count, double *value)
 {
+    NEEDS(c && (count == 0 || (reference && value)));
     return fmu_get(((instance *)c)->tank, reference, count, value);
 }
 
 fmi2_status fmi2SetReal(void *c, const fmi2_reference *reference, size_t count, const double *value)
 {
+    NEEDS(c && (count == 0 || (reference && value)));
     return fmu_set(((instance *)c)->tank, reference, count, value);
 }
 
 fmi2_status fmi2DoStep(void *c, double time, double length, int no_rollback)
 {
+    NEEDS(c);
     instance *i = c;
     (void)no_rollback;
     i->last = fmu_step(i->tank, time, length);
@@ -184,11 +199,13 @@ fmi2_status fmi2DoStep(void *c, double time, double length, int no_rollback)
 
 fmi2_status fmi2CancelStep(void *c)
 {
+    NEEDS(c);
     return fmu_tell(((instance *)c)->tank, FMU_ERROR, "cancel: no step is under way");
 }
 
 fmi2_status fmi2GetStatus(void *c, int kind, fmi2_status *value)
 {
+    NEEDS(c && value);
     const instance *i = c;
     if (kind != STEP_STATUS) return FMU_DISCARD;
     *value = i->last;
@@ -197,6 +214,7 @@ fmi2_status fmi2GetStatus(void *c, int kind, fmi2_status *value)
 
 fmi2_status fmi2GetRealStatus(void *c, int kind, double *value)
 {
+    NEEDS(c && value);
     if (kind != LAST_TIME) return FMU_DISCARD;
     *value = ((instance *)c)->tank->v.time;
     return FMU_OK;
@@ -204,6 +222,7 @@ fmi2_status fmi2GetRealStatus(void *c, int kind, double *value)
 
 fmi2_status fmi2GetBooleanStatus(void *c, int kind, int *value)
 {
+    NEEDS(c && value);
     (void)c;
     if (kind != TERMINATED) return FMU_DISCARD;
     *value = 0; /* a tank does not end by itself */
@@ -212,6 +231,7 @@ fmi2_status fmi2GetBooleanStatus(void *c, int kind, int *value)
 
 fmi2_status fmi2GetFMUstate(void *c, void **state)
 {
+    NEEDS(c && state);
     fmu_state *s = *state;
     const fmu_status status = fmu_state_take(((instance *)c)->tank, &s);
     *state = s;
@@ -220,11 +240,13 @@ fmi2_status fmi2GetFMUstate(void *c, void **state)
 
 fmi2_status fmi2SetFMUstate(void *c, void *state)
 {
+    NEEDS(c);
     return fmu_state_restore(((instance *)c)->tank, state);
 }
 
 fmi2_status fmi2FreeFMUstate(void *c, void **state)
 {
+    NEEDS(c);
     if (!state) return FMU_OK;
     fmu_state_free(((instance *)c)->tank, *state);
     *state = NULL;
@@ -233,17 +255,20 @@ fmi2_status fmi2FreeFMUstate(void *c, void **state)
 
 fmi2_status fmi2SerializedFMUstateSize(void *c, void *state, size_t *size)
 {
+    NEEDS(c && size);
     const unsigned char *bytes;
     return fmu_state_bytes(((instance *)c)->tank, state, &bytes, size);
 }
 
 fmi2_status fmi2SerializeFMUstate(void *c, void *state, char *out, size_t size)
 {
+    NEEDS(c && out);
     return fmu_state_write(((instance *)c)->tank, state, out, size);
 }
 
 fmi2_status fmi2DeSerializeFMUstate(void *c, const char *bytes, size_t size, void **state)
 {
+    NEEDS(c && bytes && state);
     fmu_state *s = NULL;
     const fmu_status status = fmu_state_read(((instance *)c)->tank, (const unsigned char *)bytes,
                                              size, &s);
@@ -255,6 +280,7 @@ fmi2_status fmi2GetDirectionalDerivative(void *c, const fmi2_reference *unknown,
                                          const fmi2_reference *known, size_t knowns,
                                          const double *seed, double *out)
 {
+    NEEDS(c && (unknowns == 0 || (unknown && out)) && (knowns == 0 || (known && seed)));
     return fmu_derivative(((instance *)c)->tank,
                           &(fmu_direction){unknown, known, unknowns, knowns, seed, out});
 }

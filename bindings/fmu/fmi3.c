@@ -28,6 +28,12 @@ EXPORT fmi3_state_read fmi3DeserializeFMUState;
 EXPORT fmi3_derivative fmi3GetDirectionalDerivative;
 EXPORT fmi3_step fmi3DoStep;
 
+/* What a call cannot do without: an importer that gives NULL gets an error. */
+#define NEEDS(what)                    \
+    do {                               \
+        if (!(what)) return FMU_ERROR; \
+    } while (0)
+
 static void say(void *user, fmu_status status, const char *text)
 {
     static const char *const category[] = {"logAll", "logStatusWarning", "logStatusDiscard",
@@ -43,6 +49,7 @@ const char *fmi3GetVersion(void)
 
 fmi3_status fmi3SetDebugLogging(void *c, bool on, size_t count, const char *const *categories)
 {
+    NEEDS(c);
     instance *i = c;
     (void)count;
     (void)categories;
@@ -65,6 +72,8 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
     *i = (instance){.environment = environment, .log = log};
     if (event_mode || intermediate_count > 0)
         say(i, FMU_ERROR, "instantiate: there is no event mode and no intermediate variable");
+    else if (!resources)
+        say(i, FMU_ERROR, "instantiate: the path of the resources is missing");
     else
         i->tank = fmu_create(resources, token, logging, say, i);
     if (i->tank) return i;
@@ -83,6 +92,7 @@ void fmi3FreeInstance(void *c)
 fmi3_status fmi3EnterInitializationMode(void *c, bool tolerance_defined, double tolerance,
                                         double start, bool stop_defined, double stop)
 {
+    NEEDS(c);
     (void)tolerance_defined; /* the case says it */
     (void)tolerance;
     (void)stop_defined; /* a tank has no end */
@@ -92,21 +102,25 @@ fmi3_status fmi3EnterInitializationMode(void *c, bool tolerance_defined, double 
 
 fmi3_status fmi3ExitInitializationMode(void *c)
 {
+    NEEDS(c);
     return fmu_begin(((instance *)c)->tank);
 }
 
 fmi3_status fmi3EnterStepMode(void *c)
 {
+    NEEDS(c);
     return fmu_tell(((instance *)c)->tank, FMU_ERROR, "there is no event mode to leave");
 }
 
 fmi3_status fmi3Terminate(void *c)
 {
+    NEEDS(c);
     return fmu_terminate(((instance *)c)->tank);
 }
 
 fmi3_status fmi3Reset(void *c)
 {
+    NEEDS(c);
     return fmu_reset(((instance *)c)->tank);
 }
 
@@ -118,6 +132,7 @@ static fmi3_status count_wrong(fmu *f, const char *call)
 fmi3_status fmi3GetFloat64(void *c, const fmi3_reference *reference, size_t references,
                            double *value, size_t values)
 {
+    NEEDS(c && (references == 0 || (reference && value)));
     fmu *f = ((instance *)c)->tank;
     return references == values ? (int)fmu_get(f, reference, references, value)
                                 : count_wrong(f, "get");
@@ -126,6 +141,7 @@ fmi3_status fmi3GetFloat64(void *c, const fmi3_reference *reference, size_t refe
 fmi3_status fmi3SetFloat64(void *c, const fmi3_reference *reference, size_t references,
                            const double *value, size_t values)
 {
+    NEEDS(c && (references == 0 || (reference && value)));
     fmu *f = ((instance *)c)->tank;
     return references == values ? (int)fmu_set(f, reference, references, value)
                                 : count_wrong(f, "set");
@@ -134,6 +150,7 @@ fmi3_status fmi3SetFloat64(void *c, const fmi3_reference *reference, size_t refe
 fmi3_status fmi3DoStep(void *c, double time, double length, bool no_rollback, bool *event,
                        bool *terminate, bool *early, double *last_time)
 {
+    NEEDS(c && event && terminate && early && last_time);
     fmu *f = ((instance *)c)->tank;
     (void)no_rollback;
     const fmu_status status = fmu_step(f, time, length);
@@ -144,6 +161,7 @@ fmi3_status fmi3DoStep(void *c, double time, double length, bool no_rollback, bo
 
 fmi3_status fmi3GetFMUState(void *c, void **state)
 {
+    NEEDS(c && state);
     fmu_state *s = *state;
     const fmu_status status = fmu_state_take(((instance *)c)->tank, &s);
     *state = s;
@@ -152,11 +170,13 @@ fmi3_status fmi3GetFMUState(void *c, void **state)
 
 fmi3_status fmi3SetFMUState(void *c, void *state)
 {
+    NEEDS(c);
     return fmu_state_restore(((instance *)c)->tank, state);
 }
 
 fmi3_status fmi3FreeFMUState(void *c, void **state)
 {
+    NEEDS(c);
     if (!state) return FMU_OK;
     fmu_state_free(((instance *)c)->tank, *state);
     *state = NULL;
@@ -165,17 +185,20 @@ fmi3_status fmi3FreeFMUState(void *c, void **state)
 
 fmi3_status fmi3SerializedFMUStateSize(void *c, void *state, size_t *size)
 {
+    NEEDS(c && size);
     const unsigned char *bytes;
     return fmu_state_bytes(((instance *)c)->tank, state, &bytes, size);
 }
 
 fmi3_status fmi3SerializeFMUState(void *c, void *state, uint8_t *out, size_t size)
 {
+    NEEDS(c && out);
     return fmu_state_write(((instance *)c)->tank, state, out, size);
 }
 
 fmi3_status fmi3DeserializeFMUState(void *c, const uint8_t *bytes, size_t size, void **state)
 {
+    NEEDS(c && bytes && state);
     fmu_state *s = NULL;
     const fmu_status status = fmu_state_read(((instance *)c)->tank, bytes, size, &s);
     if (status == FMU_OK) *state = s;
@@ -186,6 +209,7 @@ fmi3_status fmi3GetDirectionalDerivative(void *c, const fmi3_reference *unknown,
                                          const fmi3_reference *known, size_t knowns,
                                          const double *seed, size_t seeds, double *out, size_t outs)
 {
+    NEEDS(c && (unknowns == 0 || (unknown && out)) && (knowns == 0 || (known && seed)));
     fmu *f = ((instance *)c)->tank;
     if (seeds != knowns || outs != unknowns) return count_wrong(f, "derivative");
     return fmu_derivative(f, &(fmu_direction){unknown, known, unknowns, knowns, seed, out});

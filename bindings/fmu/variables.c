@@ -61,11 +61,15 @@ static bool is_plain(const char *name)
 static bool fill_sensor(const fmu_model *m, int32_t number, fmu_variable *v)
 {
     mps_job_column c;
+    int32_t column = number; /* the motion, whose columns are the first, is the importer's */
     mps_job_column_init(&c, sizeof c);
-    if (mps_job_column_get(m->job, number, &c) != MPS_OK) return false;
+    for (int32_t k = 0; mps_job_column_get(m->job, k, &c) == MPS_OK && c.flags & MPS_JOB_MOTION;
+         k++)
+        column++;
+    if (mps_job_column_get(m->job, column, &c) != MPS_OK) return false;
     *v = (fmu_variable){.reference = FMU_SENSORS + (uint32_t)number,
                         .kind = FMU_SENSOR,
-                        .dof = number,
+                        .dof = column,
                         .later = (c.flags & MPS_JOB_PRESSURE) != 0,
                         .unit = c.unit,
                         .about = c.about};

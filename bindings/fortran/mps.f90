@@ -35,6 +35,23 @@ contains
         error stop 1
     end subroutine mps_check
 
+    !> Destroy a simulation after its frames and a snapshot, and forget them: a later call with them fails with MPS_E_ARG, a second mps_close
+    !> does nothing. Not allowed in a callback.
+    subroutine mps_close(sim, frames, snapshot)
+        type(c_ptr), intent(inout) :: sim
+        type(c_ptr), intent(inout), optional :: frames, snapshot
+        if (present(frames)) then
+            call mps_frames_close(frames)
+            frames = c_null_ptr
+        end if
+        if (present(snapshot)) then
+            call mps_snapshot_destroy(snapshot)
+            snapshot = c_null_ptr
+        end if
+        call mps_sim_destroy(sim)
+        sim = c_null_ptr
+    end subroutine mps_close
+
     !> Name of the first type that this compiler lays out in another way than C, or blanks.
     function mps_layout_differs() result(name)
         character(len=32) :: name
@@ -44,15 +61,15 @@ contains
         type(mps_harmonic) :: mps_harmonic_
         type(mps_body) :: mps_body_
         type(mps_body_report) :: mps_body_report_
+        type(mps_parallel) :: mps_parallel_
+        type(mps_kernel) :: mps_kernel_
+        type(mps_stencil) :: mps_stencil_
+        type(mps_pair) :: mps_pair_
         type(mps_probe) :: mps_probe_
         type(mps_probe_info) :: mps_probe_info_
         type(mps_energy) :: mps_energy_
         type(mps_momentum) :: mps_momentum_
         type(mps_load) :: mps_load_
-        type(mps_parallel) :: mps_parallel_
-        type(mps_kernel) :: mps_kernel_
-        type(mps_stencil) :: mps_stencil_
-        type(mps_pair) :: mps_pair_
         type(mps_tank) :: mps_tank_
         type(mps_solid) :: mps_solid_
         type(mps_stl) :: mps_stl_
@@ -76,17 +93,17 @@ contains
         if (name == ' ' .and. c_sizeof(mps_motion_state_) /= 152) name = 'mps_motion_state'
         if (name == ' ' .and. c_sizeof(mps_motion_pose_) /= 200) name = 'mps_motion_pose'
         if (name == ' ' .and. c_sizeof(mps_harmonic_) /= 40) name = 'mps_harmonic'
-        if (name == ' ' .and. c_sizeof(mps_body_) /= 760) name = 'mps_body'
-        if (name == ' ' .and. c_sizeof(mps_body_report_) /= 696) name = 'mps_body_report'
+        if (name == ' ' .and. c_sizeof(mps_body_) /= 808) name = 'mps_body'
+        if (name == ' ' .and. c_sizeof(mps_body_report_) /= 752) name = 'mps_body_report'
+        if (name == ' ' .and. c_sizeof(mps_parallel_) /= 24) name = 'mps_parallel'
+        if (name == ' ' .and. c_sizeof(mps_kernel_) /= 24) name = 'mps_kernel'
+        if (name == ' ' .and. c_sizeof(mps_stencil_) /= 128) name = 'mps_stencil'
+        if (name == ' ' .and. c_sizeof(mps_pair_) /= 64) name = 'mps_pair'
         if (name == ' ' .and. c_sizeof(mps_probe_) /= 144) name = 'mps_probe'
         if (name == ' ' .and. c_sizeof(mps_probe_info_) /= 88) name = 'mps_probe_info'
         if (name == ' ' .and. c_sizeof(mps_energy_) /= 200) name = 'mps_energy'
         if (name == ' ' .and. c_sizeof(mps_momentum_) /= 296) name = 'mps_momentum'
         if (name == ' ' .and. c_sizeof(mps_load_) /= 456) name = 'mps_load'
-        if (name == ' ' .and. c_sizeof(mps_parallel_) /= 24) name = 'mps_parallel'
-        if (name == ' ' .and. c_sizeof(mps_kernel_) /= 24) name = 'mps_kernel'
-        if (name == ' ' .and. c_sizeof(mps_stencil_) /= 128) name = 'mps_stencil'
-        if (name == ' ' .and. c_sizeof(mps_pair_) /= 64) name = 'mps_pair'
         if (name == ' ' .and. c_sizeof(mps_tank_) /= 72) name = 'mps_tank'
         if (name == ' ' .and. c_sizeof(mps_solid_) /= 96) name = 'mps_solid'
         if (name == ' ' .and. c_sizeof(mps_stl_) /= 80) name = 'mps_stl'

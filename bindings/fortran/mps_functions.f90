@@ -39,6 +39,9 @@ module mps_functions
         function mps_motion_state_get(sim, state) bind(C) result(result_)
             import; type(c_ptr), value :: sim; type(mps_motion_state), optional :: state; integer(c_int32_t) :: result_; &
                 end function
+        function mps_motion_state_at(sim, t, state) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), value :: t; type(mps_motion_state), optional :: state; &
+                integer(c_int32_t) :: result_; end function
         function mps_motion_to_lab(sim, tank, lab, velocity) bind(C) result(result_)
             import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: tank(*); real(c_double), &
                 optional :: lab(*); real(c_double), optional :: velocity(*); integer(c_int32_t) :: result_; end function
@@ -54,60 +57,6 @@ module mps_functions
         function mps_body_get(sim, report) bind(C) result(result_)
             import; type(c_ptr), value :: sim; type(mps_body_report), optional :: report; integer(c_int32_t) :: result_; &
                 end function
-        function mps_probe_init(probe, size) bind(C) result(result_)
-            import; type(mps_probe), optional :: probe; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_probe_add(sim, probe, id) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_probe), intent(in), optional :: probe; integer(c_int32_t), &
-                optional :: id; integer(c_int32_t) :: result_; end function
-        function mps_probe_remove(sim, id) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
-        function mps_probe_info_init(info, size) bind(C) result(result_)
-            import; type(mps_probe_info), optional :: info; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_probe_info_get(sim, id, info) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; type(mps_probe_info), optional :: info; &
-                integer(c_int32_t) :: result_; end function
-        function mps_probe_size(sim, id) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
-        function mps_probe_read(sim, id, values) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; real(c_double), optional :: values(*); &
-                integer(c_int32_t) :: result_; end function
-        function mps_probe_series(sim, id, count, t, values) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int64_t), optional :: count; &
-                type(c_ptr) :: t; type(c_ptr) :: values; integer(c_int32_t) :: result_; end function
-        function mps_probe_series_clear(sim, id) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
-        function mps_energy_init(energy, size) bind(C) result(result_)
-            import; type(mps_energy), optional :: energy; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_energy_get(sim, energy) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_energy), optional :: energy; integer(c_int32_t) :: result_; end function
-        function mps_momentum_init(momentum, size) bind(C) result(result_)
-            import; type(mps_momentum), optional :: momentum; integer(c_size_t), value :: size; &
-                integer(c_int32_t) :: result_; end function
-        function mps_momentum_get(sim, momentum) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(mps_momentum), optional :: momentum; integer(c_int32_t) :: result_; &
-                end function
-        function mps_snapshot_create(sim, snapshot) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; type(c_ptr) :: snapshot; integer(c_int32_t) :: result_; end function
-        function mps_snapshot_take(snapshot) bind(C) result(result_)
-            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
-        function mps_snapshot_restore(snapshot) bind(C) result(result_)
-            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
-        subroutine mps_snapshot_destroy(snapshot) bind(C)
-            import; type(c_ptr), value :: snapshot; end subroutine
-        function mps_motion_pose_set(sim, t_end, state) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), value :: t_end; type(mps_motion_state), intent(in), &
-                optional :: state; integer(c_int32_t) :: result_; end function
-        function mps_load_watch(sim, what) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: what; integer(c_int32_t) :: result_; end function
-        function mps_load_init(load, size) bind(C) result(result_)
-            import; type(mps_load), optional :: load; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
-                end function
-        function mps_load_get(sim, centre, load) bind(C) result(result_)
-            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); type(mps_load), &
-                optional :: load; integer(c_int32_t) :: result_; end function
         function mps_kernel_init(kernel, size) bind(C) result(result_)
             import; type(mps_kernel), optional :: kernel; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
                 end function
@@ -190,6 +139,60 @@ module mps_functions
         function mps_matrix_inverse_bounded(dim, m, floor, inverse) bind(C) result(result_)
             import; integer(c_int32_t), value :: dim; real(c_double), intent(in), optional :: m(*); real(c_double), &
                 value :: floor; real(c_double), optional :: inverse(*); integer(c_int32_t) :: result_; end function
+        function mps_probe_init(probe, size) bind(C) result(result_)
+            import; type(mps_probe), optional :: probe; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_probe_add(sim, probe, id) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_probe), intent(in), optional :: probe; integer(c_int32_t), &
+                optional :: id; integer(c_int32_t) :: result_; end function
+        function mps_probe_remove(sim, id) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
+        function mps_probe_info_init(info, size) bind(C) result(result_)
+            import; type(mps_probe_info), optional :: info; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_probe_info_get(sim, id, info) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; type(mps_probe_info), optional :: info; &
+                integer(c_int32_t) :: result_; end function
+        function mps_probe_size(sim, id) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
+        function mps_probe_read(sim, id, values) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; real(c_double), optional :: values(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_probe_series(sim, id, count, t, values) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int64_t), optional :: count; &
+                type(c_ptr) :: t; type(c_ptr) :: values; integer(c_int32_t) :: result_; end function
+        function mps_probe_series_clear(sim, id) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: id; integer(c_int32_t) :: result_; end function
+        function mps_energy_init(energy, size) bind(C) result(result_)
+            import; type(mps_energy), optional :: energy; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_energy_get(sim, energy) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_energy), optional :: energy; integer(c_int32_t) :: result_; end function
+        function mps_momentum_init(momentum, size) bind(C) result(result_)
+            import; type(mps_momentum), optional :: momentum; integer(c_size_t), value :: size; &
+                integer(c_int32_t) :: result_; end function
+        function mps_momentum_get(sim, momentum) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(mps_momentum), optional :: momentum; integer(c_int32_t) :: result_; &
+                end function
+        function mps_snapshot_create(sim, snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; type(c_ptr) :: snapshot; integer(c_int32_t) :: result_; end function
+        function mps_snapshot_take(snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
+        function mps_snapshot_restore(snapshot) bind(C) result(result_)
+            import; type(c_ptr), value :: snapshot; integer(c_int32_t) :: result_; end function
+        subroutine mps_snapshot_destroy(snapshot) bind(C)
+            import; type(c_ptr), value :: snapshot; end subroutine
+        function mps_motion_pose_set(sim, t_end, state) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), value :: t_end; type(mps_motion_state), intent(in), &
+                optional :: state; integer(c_int32_t) :: result_; end function
+        function mps_load_watch(sim, what) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; integer(c_int32_t), value :: what; integer(c_int32_t) :: result_; end function
+        function mps_load_init(load, size) bind(C) result(result_)
+            import; type(mps_load), optional :: load; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
+                end function
+        function mps_load_get(sim, centre, load) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; real(c_double), intent(in), optional :: centre(*); type(mps_load), &
+                optional :: load; integer(c_int32_t) :: result_; end function
         function mps_tank_init(tank, size) bind(C) result(result_)
             import; type(mps_tank), optional :: tank; integer(c_size_t), value :: size; integer(c_int32_t) :: result_; &
                 end function
@@ -288,10 +291,16 @@ module mps_functions
                 type(c_ptr) :: frames; integer(c_int32_t) :: result_; end function
         function mps_frames_write(frames) bind(C) result(result_)
             import; type(c_ptr), value :: frames; integer(c_int32_t) :: result_; end function
+        function mps_frames_remove(frames, wanted, user) bind(C) result(result_)
+            import; type(c_ptr), value :: frames; type(c_funptr), value :: wanted; type(c_ptr), value :: user; &
+                integer(c_int32_t) :: result_; end function
         subroutine mps_frames_close(frames) bind(C)
             import; type(c_ptr), value :: frames; end subroutine
         function mps_checkpoint_write(sim, path) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: path(*); &
+                integer(c_int32_t) :: result_; end function
+        function mps_checkpoint_note_add(sim, text) bind(C) result(result_)
+            import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: text(*); &
                 integer(c_int32_t) :: result_; end function
         function mps_checkpoint_read(sim, path) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: path(*); &

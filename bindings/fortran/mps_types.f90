@@ -33,32 +33,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_DOF_COUNT = 6
     integer(c_int32_t), parameter :: MPS_START_AT_REST = 0
     integer(c_int32_t), parameter :: MPS_START_WITH_TANK = 1
-    real(c_double), parameter :: MPS_AVERAGE_AUTO = -1.0_c_double
-    integer(c_int32_t), parameter :: MPS_PROBE_WALL_PRESSURE = 0
-    integer(c_int32_t), parameter :: MPS_PROBE_FLUID_PRESSURE = 1
-    integer(c_int32_t), parameter :: MPS_PROBE_GAUGE = 2
-    integer(c_int32_t), parameter :: MPS_PROBE_FORCE = 3
-    integer(c_int32_t), parameter :: MPS_EXIT_OK = 0
-    integer(c_int32_t), parameter :: MPS_EXIT_FAILED = 1
-    integer(c_int32_t), parameter :: MPS_EXIT_USAGE = 2
-    integer(c_int32_t), parameter :: MPS_EXIT_DIVERGED = 3
-    integer(c_int32_t), parameter :: MPS_EXIT_INTERRUPTED = 130
-    integer(c_int32_t), parameter :: MPS_JOB_MESSAGE = 0
-    integer(c_int32_t), parameter :: MPS_JOB_PROGRESS = 1
-    integer(c_int32_t), parameter :: MPS_JOB_TABLE = 2
-    integer(c_int32_t), parameter :: MPS_JOB_PARTICLES = 1
-    integer(c_int32_t), parameter :: MPS_JOB_PRESSURE = 2
-    integer(c_int32_t), parameter :: MPS_TRACE_GIVEN = 0
-    integer(c_int32_t), parameter :: MPS_TRACE_INTEGRAL = 1
-    integer(c_int32_t), parameter :: MPS_TRACE_MEAN = 2
-    integer(c_int32_t), parameter :: MPS_TRACE_CHANGE = 3
-    integer(c_int32_t), parameter :: MPS_TRACE_LARGEST = 4
-    integer(c_int32_t), parameter :: MPS_TRACE_LEAST = 5
-    integer(c_int32_t), parameter :: MPS_TRACE_SLOPE = 6
-    integer(c_int32_t), parameter :: MPS_CASE_MESSAGES = 20
-    integer(c_int32_t), parameter :: MPS_LOAD_NONE = 0
-    integer(c_int32_t), parameter :: MPS_LOAD_FORCE = 1
-    integer(c_int32_t), parameter :: MPS_LOAD_MASS = 2
     integer(c_int32_t), parameter :: MPS_PARALLEL_PARTS = 64
     integer(c_int32_t), parameter :: MPS_PARALLEL_VALUES = 16
     integer(c_int32_t), parameter :: MPS_PARALLEL_LEAST = 128
@@ -95,14 +69,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_BODY_MEMBER = 1
     integer(c_int32_t), parameter :: MPS_BODY_SEED = 2
     integer(c_int32_t), parameter :: MPS_BODY_ANCHOR = 3
-    integer(c_int32_t), parameter :: MPS_DEVICE_API = 1
-    integer(c_int32_t), parameter :: MPS_SIDE_NONE = 0
-    integer(c_int32_t), parameter :: MPS_SIDE_X0 = 1
-    integer(c_int32_t), parameter :: MPS_SIDE_X1 = 2
-    integer(c_int32_t), parameter :: MPS_SIDE_Y0 = 3
-    integer(c_int32_t), parameter :: MPS_SIDE_Y1 = 4
-    integer(c_int32_t), parameter :: MPS_SIDE_Z0 = 5
-    integer(c_int32_t), parameter :: MPS_SIDE_Z1 = 6
     integer(c_int32_t), parameter :: MPS_MODEL_API = 1
     integer(c_int32_t), parameter :: MPS_USE_READ = 1
     integer(c_int32_t), parameter :: MPS_USE_NEIGHBOURS = 2
@@ -116,18 +82,70 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_VECTOR = -1
     integer(c_int32_t), parameter :: MPS_MATRIX = -2
     integer(c_int32_t), parameter :: MPS_SCALAR = -3
+    integer(c_int32_t), parameter :: MPS_RANKS_API = 1
+    integer(c_int32_t), parameter :: MPS_PPE_API = 1
+    integer(c_int32_t), parameter :: MPS_PPE_CONVERGED = 0
+    integer(c_int32_t), parameter :: MPS_PPE_MAX_ITERATIONS = 1
+    integer(c_int32_t), parameter :: MPS_PPE_INDEFINITE = 2
+    integer(c_int32_t), parameter :: MPS_PPE_NAN = 3
+    integer(c_int32_t), parameter :: MPS_PPE_BREAKDOWN = 4
+    integer(c_int32_t), parameter :: MPS_PPE_NOMEM = 5
+    integer(c_int32_t), parameter :: MPS_PLUGIN_API = 1
+    integer(c_int32_t), parameter :: MPS_PLUGIN_MODEL = 0
+    integer(c_int32_t), parameter :: MPS_PLUGIN_SOLVER = 1
+    integer(c_int32_t), parameter :: MPS_PLUGIN_PRECONDITIONER = 2
+    integer(c_int32_t), parameter :: MPS_PLUGIN_LOAD = 3
+    integer(c_int32_t), parameter :: MPS_PLUGIN_MOTION = 4
+    real(c_double), parameter :: MPS_AVERAGE_AUTO = -1.0_c_double
+    integer(c_int32_t), parameter :: MPS_PROBE_WALL_PRESSURE = 0
+    integer(c_int32_t), parameter :: MPS_PROBE_FLUID_PRESSURE = 1
+    integer(c_int32_t), parameter :: MPS_PROBE_GAUGE = 2
+    integer(c_int32_t), parameter :: MPS_PROBE_FORCE = 3
+    integer(c_int32_t), parameter :: MPS_EXIT_OK = 0
+    integer(c_int32_t), parameter :: MPS_EXIT_FAILED = 1
+    integer(c_int32_t), parameter :: MPS_EXIT_USAGE = 2
+    integer(c_int32_t), parameter :: MPS_EXIT_DIVERGED = 3
+    integer(c_int32_t), parameter :: MPS_EXIT_INTERRUPTED = 130
+    integer(c_int32_t), parameter :: MPS_JOB_MESSAGE = 0
+    integer(c_int32_t), parameter :: MPS_JOB_PROGRESS = 1
+    integer(c_int32_t), parameter :: MPS_JOB_TABLE = 2
+    integer(c_int32_t), parameter :: MPS_JOB_PARTICLES = 1
+    integer(c_int32_t), parameter :: MPS_JOB_PRESSURE = 2
+    integer(c_int32_t), parameter :: MPS_JOB_MOTION = 4
+    integer(c_int32_t), parameter :: MPS_TRACE_GIVEN = 0
+    integer(c_int32_t), parameter :: MPS_TRACE_INTEGRAL = 1
+    integer(c_int32_t), parameter :: MPS_TRACE_MEAN = 2
+    integer(c_int32_t), parameter :: MPS_TRACE_CHANGE = 3
+    integer(c_int32_t), parameter :: MPS_TRACE_LARGEST = 4
+    integer(c_int32_t), parameter :: MPS_TRACE_LEAST = 5
+    integer(c_int32_t), parameter :: MPS_TRACE_SLOPE = 6
+    integer(c_int32_t), parameter :: MPS_CASE_MESSAGES = 20
+    integer(c_int32_t), parameter :: MPS_CASE_PLUGINS_NONE = 0
+    integer(c_int32_t), parameter :: MPS_CASE_PLUGINS_FILES = 1
+    integer(c_int32_t), parameter :: MPS_CASE_PLUGINS_ALL = 2
+    integer(c_int32_t), parameter :: MPS_LOAD_NONE = 0
+    integer(c_int32_t), parameter :: MPS_LOAD_FORCE = 1
+    integer(c_int32_t), parameter :: MPS_LOAD_MASS = 2
+    integer(c_int32_t), parameter :: MPS_DEVICE_API = 1
+    integer(c_int32_t), parameter :: MPS_SIDE_NONE = 0
+    integer(c_int32_t), parameter :: MPS_SIDE_X0 = 1
+    integer(c_int32_t), parameter :: MPS_SIDE_X1 = 2
+    integer(c_int32_t), parameter :: MPS_SIDE_Y0 = 3
+    integer(c_int32_t), parameter :: MPS_SIDE_Y1 = 4
+    integer(c_int32_t), parameter :: MPS_SIDE_Z0 = 5
+    integer(c_int32_t), parameter :: MPS_SIDE_Z1 = 6
     integer(c_int32_t), parameter :: MPS_FRAMES_FLUID = 1
     integer(c_int32_t), parameter :: MPS_FRAMES_WALL = 2
     integer(c_int32_t), parameter :: MPS_FRAMES_DUMMY = 4
     integer(c_int32_t), parameter :: MPS_FRAMES_CONTINUE = 8
     integer(c_int32_t), parameter :: MPS_FRAMES_PIECES = 16
     integer(c_int32_t), parameter :: MPS_FRAMES_TANK = 32
+    integer(c_int32_t), parameter :: MPS_FRAMES_STEPS = 64
     integer(c_int32_t), parameter :: MPS_DATA_DOUBLE = 0
     integer(c_int32_t), parameter :: MPS_DATA_INT32 = 1
     integer(c_int32_t), parameter :: MPS_DATA_INT64 = 2
     integer(c_int32_t), parameter :: MPS_READ = 0
     integer(c_int32_t), parameter :: MPS_WRITE = 1
-    integer(c_int32_t), parameter :: MPS_RANKS_API = 1
     integer(c_int32_t), parameter :: MPS_SHIP_SURGE = 0
     integer(c_int32_t), parameter :: MPS_SHIP_SWAY = 1
     integer(c_int32_t), parameter :: MPS_SHIP_HEAVE = 2
@@ -154,13 +172,6 @@ module mps_types
     integer(c_int32_t), parameter :: MPS_CONVERGE_SLOW = 1
     integer(c_int32_t), parameter :: MPS_CONVERGE_OSCILLATING = 2
     integer(c_int32_t), parameter :: MPS_CONVERGE_SAME = 3
-    integer(c_int32_t), parameter :: MPS_PPE_API = 1
-    integer(c_int32_t), parameter :: MPS_PPE_CONVERGED = 0
-    integer(c_int32_t), parameter :: MPS_PPE_MAX_ITERATIONS = 1
-    integer(c_int32_t), parameter :: MPS_PPE_INDEFINITE = 2
-    integer(c_int32_t), parameter :: MPS_PPE_NAN = 3
-    integer(c_int32_t), parameter :: MPS_PPE_BREAKDOWN = 4
-    integer(c_int32_t), parameter :: MPS_PPE_NOMEM = 5
     integer(c_int32_t), parameter :: MPS_FIT_FEW = 0
     integer(c_int32_t), parameter :: MPS_FIT_SAME = 1
     integer(c_int32_t), parameter :: MPS_FIT_LIKELIHOOD = 2
@@ -192,7 +203,8 @@ module mps_types
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: free = 0; real(c_double) :: mass = 0; &
             real(c_double) :: centre_of_mass(3) = 0; real(c_double) :: inertia(9) = 0; real(c_double) :: stiffness(36) = 0; &
             real(c_double) :: damping(36) = 0; real(c_double) :: equilibrium(6) = 0; type(c_funptr) :: load = c_null_funptr; &
-            type(c_ptr) :: user = c_null_ptr; integer(c_int32_t) :: gravity = 0; integer(c_int32_t) :: reserved = 0
+            type(c_ptr) :: user = c_null_ptr; integer(c_int32_t) :: gravity = 0; integer(c_int32_t) :: reserved = 0; &
+            real(c_double) :: friction(6) = 0
     end type mps_body
 
     type, bind(C) :: mps_body_report
@@ -202,8 +214,31 @@ module mps_types
             real(c_double) :: late(6) = 0; integer(c_int32_t) :: iterations = 0; integer(c_int32_t) :: reserved = 0; &
             real(c_double) :: kinetic = 0; real(c_double) :: spring = 0; real(c_double) :: weight = 0; &
             real(c_double) :: damped = 0; real(c_double) :: external_work = 0; real(c_double) :: liquid_work = 0; &
-            real(c_double) :: start = 0
+            real(c_double) :: start = 0; real(c_double) :: friction(6) = 0; real(c_double) :: rubbed = 0
     end type mps_body_report
+
+    type, bind(C) :: mps_parallel
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: threads = 0; type(c_funptr) :: run = c_null_funptr; &
+            type(c_ptr) :: user = c_null_ptr
+    end type mps_parallel
+
+    type, bind(C) :: mps_kernel
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: id = 0; type(c_funptr) :: fn = c_null_funptr; &
+            type(c_ptr) :: user = c_null_ptr
+    end type mps_kernel
+
+    type, bind(C) :: mps_stencil
+        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: dim = 0; type(c_ptr) :: host = c_null_ptr; &
+            integer(c_int64_t) :: n = 0; real(c_double) :: dp = 0; real(c_double) :: re = 0; real(c_double) :: n0 = 0; &
+            real(c_double) :: lambda = 0; type(mps_kernel) :: kernel; type(c_ptr) :: parallel = c_null_ptr; &
+            type(c_ptr) :: x = c_null_ptr; type(c_ptr) :: begin = c_null_ptr; type(c_ptr) :: end = c_null_ptr; &
+            type(c_ptr) :: col = c_null_ptr; type(c_ptr) :: w_r2 = c_null_ptr
+    end type mps_stencil
+
+    type, bind(C) :: mps_pair
+        real(c_double) :: d(3) = 0; real(c_double) :: r2 = 0; real(c_double) :: r = 0; real(c_double) :: w = 0; &
+            integer(c_int64_t) :: j = 0; real(c_double) :: w_r2 = 0
+    end type mps_pair
 
     type, bind(C) :: mps_probe
         integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: type = 0; real(c_double) :: at(3) = 0; &
@@ -242,29 +277,6 @@ module mps_types
             real(c_double) :: rest(6) = 0; real(c_double) :: mass(36) = 0; real(c_double) :: acceleration(6) = 0; &
             real(c_double) :: dt = 0; integer(c_int32_t) :: iterations = 0; integer(c_int32_t) :: reserved = 0
     end type mps_load
-
-    type, bind(C) :: mps_parallel
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: threads = 0; type(c_funptr) :: run = c_null_funptr; &
-            type(c_ptr) :: user = c_null_ptr
-    end type mps_parallel
-
-    type, bind(C) :: mps_kernel
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: id = 0; type(c_funptr) :: fn = c_null_funptr; &
-            type(c_ptr) :: user = c_null_ptr
-    end type mps_kernel
-
-    type, bind(C) :: mps_stencil
-        integer(c_int32_t) :: struct_size = 0; integer(c_int32_t) :: dim = 0; type(c_ptr) :: host = c_null_ptr; &
-            integer(c_int64_t) :: n = 0; real(c_double) :: dp = 0; real(c_double) :: re = 0; real(c_double) :: n0 = 0; &
-            real(c_double) :: lambda = 0; type(mps_kernel) :: kernel; type(c_ptr) :: parallel = c_null_ptr; &
-            type(c_ptr) :: x = c_null_ptr; type(c_ptr) :: begin = c_null_ptr; type(c_ptr) :: end = c_null_ptr; &
-            type(c_ptr) :: col = c_null_ptr; type(c_ptr) :: w_r2 = c_null_ptr
-    end type mps_stencil
-
-    type, bind(C) :: mps_pair
-        real(c_double) :: d(3) = 0; real(c_double) :: r2 = 0; real(c_double) :: r = 0; real(c_double) :: w = 0; &
-            integer(c_int64_t) :: j = 0; real(c_double) :: w_r2 = 0
-    end type mps_pair
 
     type, bind(C) :: mps_tank
         integer(c_int32_t) :: struct_size = 0; type(c_ptr) :: name = c_null_ptr; real(c_double) :: lo(3) = 0; &

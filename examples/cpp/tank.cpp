@@ -49,7 +49,6 @@ try {
                         s.energy().kinetic, info.ppe_iterations);
             next += 0.2;
         }
-        return true;
     });
 
     double largest = 0;

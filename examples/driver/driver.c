@@ -136,7 +136,7 @@ static int make_table(driver *d, option *table)
     table[n++] = (option){"--frames", "N", "frames for ParaView besides the first; 0: none", TYPE_INT, &d->frames, 0, FRAMES_MOST, false, NULL};
     table[n++] = (option){"--tank-frame", NULL, "frames in the frame of the tank: its walls stand still", TYPE_FLAG, &d->tank_frame, 0, 0, true, NULL};
     table[n++] = (option){"--pieces", NULL, "with --mpi: each rank writes its own .vtp of a frame, and a .pvtp names them", TYPE_FLAG, &d->pieces, 0, 0, true, NULL};
-    table[n++] = (option){"--checkpoint", "S", "a checkpoint every S simulated seconds and at the end; default: only at Ctrl-C", TYPE_REAL, &d->checkpoint, 1e-6, d->t_max, false, NULL};
+    table[n++] = (option){"--checkpoint", "S", "a checkpoint every S simulated seconds, besides those every 10 minutes by the clock", TYPE_REAL, &d->checkpoint, 1e-6, d->t_max, false, NULL};
     table[n++] = (option){"--resume", NULL, "go on from the checkpoint in the folder of --out", TYPE_FLAG, &d->resume, 0, 0, true, NULL};
     table[n++] = (option){"--overwrite", NULL, "remove an earlier run from the folder of --out", TYPE_FLAG, &d->overwrite, 0, 0, true, NULL};
     table[n++] = (option){"--probe-dt", "S", "interval of rows in probes.csv [s]", TYPE_REAL, &d->probe_dt, 0, 10, false, NULL};

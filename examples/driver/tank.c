@@ -27,15 +27,16 @@ void tank_walls_about(driver *d, const double *size, double middle, double *lo, 
     driver_check(d, mps_tank_add(d->sim, &tank, NULL), "tank");
 }
 
-/* A vertical baffle on the lattice: its faces are columns of wall particles, so n columns are n - 1 cells thick. It stands in whole columns
- * as near to its place as they are: d->layers of them, or as its thickness says. */
+/* A vertical baffle on the nearest lattice points: its faces are columns of wall particles, so n columns are n - 1 cells thick:
+ * d->layers of them, or as its thickness says. */
 static void add_baffle(driver *d, const baffle *b, double width)
 {
     double h[3], columns = d->layers;
     driver_check(d, mps_lattice_get(d->sim, NULL, h), "baffle");
     if (columns < 1) columns = round(b->thickness / h[0]) + 1;
     double first = round(b->middle / h[0] - 0.5 * (columns - 1)) * h[0];
-    const double lo[] = {first, b->bottom, 0}, hi[] = {first + (columns - 1) * h[0], b->top, width};
+    const double lo[] = {first, round(b->bottom / h[1]) * h[1], 0},
+                 hi[] = {first + (columns - 1) * h[0], round(b->top / h[1]) * h[1], width};
     driver_check(d, mps_baffle_add(d->sim, "baffle", lo, hi, NULL), "baffle");
 }
 
@@ -64,10 +65,24 @@ void tank_air(driver *d, const double *size)
     driver_check(d, mps_fill_box_add(d->sim, 1, lo, size, NULL, NULL), "air");
 }
 
+/* user: NULL: surge; else roll in degrees */
+static double moved(void *user, mps_sim *sim)
+{
+    mps_motion_state tank = {.struct_size = sizeof tank};
+    if (mps_motion_state_get(sim, &tank) < 0) return NAN;
+    return user ? 180 / acos(-1.0) * tank.value[MPS_ROTATE_Z] : tank.value[MPS_MOVE_X];
+}
+
 void tank_move(driver *d, mps_harmonic motion)
 {
+    static int32_t rolls = MPS_ROTATE_Z;
+    const bool turn = motion.dof == rolls;
     motion.ramp = d->ramp * 2 * acos(-1.0) / motion.omega;
     driver_check(d, mps_motion_harmonics_set(d->sim, 1, &motion), "motion");
+    driver_value(d, turn ? "roll" : "surge", turn ? "deg" : "m",
+                 turn ? "Rotation of the tank, roll: about the centre, as prescribed"
+                      : "Displacement of the tank, surge: of the centre, as prescribed",
+                 MPS_JOB_MOTION, moved, turn ? &rolls : NULL);
 }
 
 bool tank_moves_as_given(const driver *d, const tank_case *c)

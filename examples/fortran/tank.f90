@@ -73,5 +73,5 @@ program tank
     call mps_check(sim, mps_frames_open(sim, '.' // c_null_char, 'tank_frames' // c_null_char, 0, frames))
     call mps_check(sim, mps_frames_write(frames))
     call mps_frames_close(frames)
-    call mps_sim_destroy(sim)
+    call mps_close(sim)
 end program tank

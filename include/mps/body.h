@@ -11,15 +11,22 @@
  *    I w' + w x I w + r x m b = moment of all loads about c,
  *    loads = F + weight + external load - K (q - q_0) - C dq/dt,
  *
- *  along the free degrees; I is the inertia about the centre of mass. F is the load of the liquid,
- *  mps_load. It depends on the acceleration of the same step, F = F0 - A a, so a follows from
- *  (M + A) a = F0 + other loads: one more solution of the pressure equation for each free degree,
- *  with the matrix of the step. Pressures, walls and liquid of the step then get that acceleration.
- *  Nothing is iterated and no step is done twice. The mass may be 0, or much less than that of the
- *  liquid.
+ *  along the free degrees, with dry friction (Coulomb) f_k of each degree beside them:
+ *
+ *    f_k = -F_k sign(dq_k/dt) where it moves; |f_k| <= F_k where it rests,
+ *
+ *  so that a degree rests as long as F_k holds the other loads. I is the inertia about the centre
+ *  of mass. F is the load of the liquid, mps_load. It depends on the acceleration of the same step,
+ *  F = F0 - A a, so a follows from (M + A) a = F0 + other loads: one more solution of the pressure
+ *  equation for each free degree, with the matrix of the step. Pressures, walls and liquid of the
+ *  step then get that acceleration. Nothing is iterated and no step is done twice. The mass may be
+ *  0, or much less than that of the liquid.
  *
  *  A mean velocity over a step belongs to its middle. So do K and C: springs act by the mean of
  *  three poses, (q_before + 2 q + q_next)/4, without numerical damping, in steps of any length.
+ *  Friction acts by the sign that the rate of the step has with it (Moreau's time stepping): in
+ *  each step the rates and the loads of friction are solved together, with those of the liquid. A
+ *  degree that rests has the rate 0 exactly, and no speed is chosen below which it does.
  *  Collisions of spray load the walls after the pressures are known: that load acts on the body in
  *  the next step, so that it gets all of mps_load.force. Walls that separate from the liquid
  *  because the acceleration has changed separate in the next step, too. */
@@ -74,6 +81,9 @@ typedef struct mps_body {
     int32_t gravity;
     /** Kept 0. */
     int32_t reserved;
+    /** F: dry friction along each degree of freedom, >= 0 [N, N m]; no effect where it is not
+     *  free. 0 (default): none. */
+    double friction[6];
 } mps_body;
 
 /** Set struct_size, gravity = 1 and zero. @param size  sizeof(mps_body)
@@ -152,10 +162,14 @@ typedef struct mps_body_report {
     double external_work;
     /** out: work of the liquid on the body since then [J]. */
     double liquid_work;
-    /** out: kinetic + spring + weight at mps_body_set() [J]. Later
-     *  kinetic + spring + weight = start + external_work + liquid_work - damped: exact for
-     *  translations in steps of equal length, else to second order in dt. */
+    /** out: kinetic + spring + weight at mps_body_set() [J]. Later kinetic + spring + weight =
+     *  start + external_work + liquid_work - damped - rubbed: exact for translations in steps of
+     *  equal length, else to second order in dt. */
     double start;
+    /** out: load of friction along the degrees of freedom [N, N m]. */
+    double friction[6];
+    /** out: energy that friction has dissipated since mps_body_set() [J]. */
+    double rubbed;
 } mps_body_report;
 
 /** Set struct_size and zero. @param size  sizeof(mps_body_report) @return MPS_E_ARG: bad size */

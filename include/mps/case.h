@@ -8,6 +8,7 @@
 #define MPS_CASE_H
 
 #include <mps/job.h>
+#include <mps/plugin.h>
 #include <mps/types.h>
 #include <stddef.h>
 
@@ -37,8 +38,56 @@ typedef struct mps_case_message {
     const char *source;
 } mps_case_message;
 
+/** Which plug-ins of a case are loaded. A plug-in is a program that runs with all rights of this
+ *  one. A case from a page or from memory may come from anywhere, and so may the files that it
+ *  names. */
+enum {
+    /** None. The case can be read; mps_case_job() and mps_case_check() refuse it. */
+    MPS_CASE_PLUGINS_NONE = 0,
+    /** Those that case files name, `sets` and mps_case_options.plugin. A case of a page or from
+     *  memory that names some has an error. */
+    MPS_CASE_PLUGINS_FILES = 1,
+    /** All. */
+    MPS_CASE_PLUGINS_ALL = 2
+};
+
+/** How a case is read. Fill it with mps_case_options_init(). */
+typedef struct mps_case_options {
+    /** Set by mps_case_options_init(). */
+    uint32_t struct_size;
+    /** MPS_CASE_PLUGINS_... */
+    int32_t load;
+    /** Number of `set`. */
+    int32_t set_count;
+    /** Number of `plugin`. */
+    int32_t plugin_count;
+    /** [set_count] "path=value", e.g. "run.until=60 s"; each wins over the file. */
+    const char *const *set;
+    /** [plugin_count] files of plug-ins, relative to the present folder. One takes the place of a
+     *  plug-in of the case whose file has the same name; others are added. They are loaded unless
+     *  `load` is MPS_CASE_PLUGINS_NONE. */
+    const char *const *plugin;
+    /** NULL: `path` is a file that is read. Else the case as YAML, and `path` is its name. */
+    const char *text;
+    /** Bytes of `text`. */
+    size_t size;
+} mps_case_options;
+
+/** Set every entry to its default, 0. @param size  sizeof(mps_case_options)
+ *  @return MPS_E_ARG: bad size */
+MPS_API mps_status mps_case_options_init(mps_case_options *options, size_t size);
+
+/** Read a case from a file or from memory, see mps_case_read(). A plug-in of the case is unloaded
+ *  when the case is destroyed.
+ *  @param options  NULL: all defaults
+ *  @return as mps_case_read() */
+MPS_API mps_status mps_case_open(const char *path, const mps_case_options *options, mps_case **out);
+
+/** A plug-in of a case that is loaded. @param index  from 0 @return NULL: there is none */
+MPS_API const mps_plugin_file *mps_case_plugin(const mps_case *c, int32_t index);
+
 /** Read a case from a file: YAML, of which JSON is a part, or a report.html with its case. Files
- *  named by `base` are read too.
+ *  named by `base` are read too. Plug-ins are not loaded, see mps_case_open().
  *  @param path   of the file; other files are named relative to its folder
  *  @param count  number of `sets`, >= 0
  *  @param sets   [count] "path=value", e.g. "run.until=60 s"; each wins over the file
@@ -50,7 +99,7 @@ typedef struct mps_case_message {
 MPS_API mps_status mps_case_read(const char *path, int32_t count, const char *const *sets,
                                  mps_case **out);
 
-/** Read a case from memory.
+/** Read a case from memory. Plug-ins are not loaded, see mps_case_open().
  *  @param text  [size] YAML
  *  @param name  of the text in messages; other files are named relative to its folder
  *  @return as mps_case_read() */
@@ -91,6 +140,35 @@ MPS_API int32_t mps_case_sweep_count(const mps_case *c);
  *  @return MPS_E_ARG: an argument, or the buffer is too short */
 MPS_API mps_status mps_case_sweep_get(const mps_case *c, int64_t index, int32_t which, char *buffer,
                                       size_t size);
+
+/** Read a value of a case as a number in SI, e.g. one of a sweep.
+ *  @param text   one number with or without a unit: "20 mm", "0.9 T1", "10 %"
+ *  @param dp     spacing for the unit dp [m]; NAN: not known
+ *  @param T1     period for the unit T1 [s]; NAN: not known
+ *  @param value  out; a share of "10 %" is 0.1; NAN: dp or T1 is not known
+ *  @param unit   [size] out: its unit in SI, "m", ends with 0; "" for none
+ *  @return MPS_E_ARG: an argument, or the text is no single number */
+MPS_API mps_status mps_case_quantity(const char *text, double dp, double T1, double *value,
+                                     char *unit, size_t size);
+
+/** What a run costs, by the steps of mps_case_check(). */
+typedef struct mps_case_cost {
+    /** sizeof(mps_case_cost), set by the caller. */
+    uint32_t struct_size;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Wall clock if the liquid stays calm [s]. */
+    double wall_least;
+    /** Wall clock in violent flow [s]. */
+    double wall_most;
+    /** Largest memory of the process so far, page included [bytes]. */
+    double memory;
+} mps_case_cost;
+
+/** What the last mps_case_check() with a `text` found.
+ *  @param cost  with its struct_size; out
+ *  @return MPS_E_ARG: an argument; MPS_E_STATE: there was no such check, or its steps failed */
+MPS_API mps_status mps_case_cost_get(const mps_case *c, mps_case_cost *cost);
 
 /** A key of the language. */
 typedef struct mps_case_key {
@@ -143,10 +221,17 @@ MPS_API mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_
 
 /** What a case amounts to: particles, volumes asked for and built, natural periods, largest motion,
  *  sensors, expected cost. It builds the simulation and does a few steps.
- *  @param text    out: lines for people; to be freed with free(). NULL on failure
- *  @param sketch  out: tank, liquid and sensors as SVG; likewise
+ *  @param text    out: lines for people; to be freed with free(), NULL on failure. A NULL argument:
+ *                 not wanted, and no step is done
+ *  @param sketch  out: tank, liquid and sensors as SVG; to be freed with free(), NULL on failure. A
+ *                 NULL argument: not wanted
  *  @return as mps_case_job() */
 MPS_API mps_status mps_case_check(mps_case *c, char **text, char **sketch);
+
+/** @param from,to  units as `mps list units` prints them, "kPa", "Pa"
+ *  @return number of `to` in one of `from`; 1 for the same text; NAN: a unit is not known, or they
+ *          are of different kinds */
+MPS_API double mps_unit_factor(const char *from, const char *to);
 
 MPS_END_DECLS
 

@@ -189,7 +189,7 @@ MPS_API mps_status mps_load_init(mps_load *load, size_t size);
  *  | error | reason |
  *  |---|---|
  *  | MPS_E_ARG | centre is not finite; load was not initialised |
- *  | MPS_E_STATE | no step was done since mps_load_watch(), or since a checkpoint was read |
+ *  | MPS_E_STATE | no step since mps_load_watch(), or since a checkpoint without a load was read |
  *  | MPS_E_BUSY | called from a verb or a callback | */
 MPS_API mps_status mps_load_get(mps_sim *sim, const double *centre, mps_load *load);
 

@@ -154,6 +154,10 @@ typedef struct mps_device_info {
  *  had alone are lost: steps and all that needs fields return MPS_E_PLUGIN with the time of the
  *  state, this function too, until mps_checkpoint_read() or mps_snapshot_restore() brings another.
  *
+ *  Functions that change numbers, as mps_motion_pose_set() or mps_model_set() do, copy no field. A
+ *  lease for writing, mps_phase_set() with another density and a motion that begins elsewhere copy
+ *  the field that they change; the budgets of the next step need positions and velocities then.
+ *
  *  On many ranks a call of all ranks together: each has a device of its own, or none has one.
  *  Where one fails all fail, and all run on the host then. A search of neighbours is done on the
  *  hosts. The pressure equation is solved on the devices by `sundials.pcg` with `auxgrid`, `jacobi`

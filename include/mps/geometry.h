@@ -177,13 +177,15 @@ MPS_API mps_status mps_solid_init(mps_solid *solid, size_t size);
  *  the first rows beside a solid by up to 0.45 dp, so that their density is even, and call `inside`
  *  with the lattice point.
  *
- *  The first tank or solid makes the lattice of the fills, that of a solid has h = dp and begins
- *  at its corner `lo`: put `lo` on a lattice plane of flat walls. Without a tank each further
- *  solid extends the lattice, and fills keep to the boxes of the solids. A body may end in the
- *  walls of a tank: its points beyond the walls, or nearer than 0.7 dp to a wall particle, are
- *  left out. Walls of the tank inside the body become dummies. Add bodies before the fluid: fluid
- *  inside a solid is refused. Parts thinner than 3 dp are logged as a warning, because liquid on
- *  one side feels the other; thin screens are made by mps_baffle_add() and mps_plate_add().
+ *  The first tank or solid makes the lattice of the fills. That of a solid begins at its corner
+ *  `lo`: put `lo` and `hi` on flat walls. Along the horizontal axes whole cells fill the box
+ *  lo..hi, h = L/n with n = L/dp, rounded; the height of a cell gives it the volume dp^dim.
+ *  Without a tank each further solid extends the lattice, and fills keep to the boxes of the
+ *  solids. A body may end in the walls of a tank: its points beyond the walls, or nearer than 0.7
+ *  dp to a wall particle, are left out. Walls of the tank inside the body become dummies. Add
+ *  bodies before the fluid: fluid inside a solid is refused. Parts thinner than 3 dp are logged as
+ *  a warning, because liquid on one side feels the other; thin screens are made by
+ *  mps_baffle_add() and mps_plate_add().
  *  @return see the table of this file; MPS_E_ARG also for a distance that is not finite (with its
  *          place), no surface in the box, a surface that leaves the box */
 MPS_API mps_status mps_solid_add(mps_sim *sim, const mps_solid *solid);
@@ -236,15 +238,21 @@ typedef struct mps_stl {
 MPS_API mps_status mps_stl_init(mps_stl *stl, size_t size);
 
 /** Add a solid from an STL file as mps_solid_add() does; the lattice begins at the lower
- *  corner of its bounding box. Triangles without area are skipped, a surface that is inside out is
- *  turned over; both are logged.
+ *  corner of its bounding box.
+ *
+ *  What is repaired or doubtful is logged: triangles without area and those that are there twice
+ *  are skipped, a surface that is inside out is turned over, points of open edges within 0.01 dp of
+ *  each other are joined, bytes behind the last triangle are ignored. Warnings name closed surfaces
+ *  within another one (thick walls: the liquid of a container is between them) or apart from each
+ *  other, surfaces that overlap or cross (places that are not enclosed 0 or 1 times), and a number
+ *  of wall particles that differs by 10 % from the surface over dp^2.
  *  @param built  NULL, or [6] out: lower and upper corner of the surface [m]
  *
  *  | error (and those of the table of this file) | reason |
  *  |---|---|
  *  | MPS_E_IO | the file cannot be read, is cut short, or is not an STL file |
- *  | MPS_E_ARG | 2-D; no triangles; a coordinate not finite; an open surface, or one not |
- *  | | oriented: how many edges, and where the first is | */
+ *  | MPS_E_ARG | 2-D; no triangles; a coordinate not finite; a surface with gaps wider than |
+ *  | | 0.01 dp, or one not oriented: how many edges, and where the first is | */
 MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, double *built);
 
 /** Sharp edges of the surface that mps_stl_add() would add, for drawings. Nothing is added.

@@ -12,6 +12,7 @@
 #ifndef MPS_JOB_H
 #define MPS_JOB_H
 
+#include <mps/plugin.h>
 #include <mps/probe.h>
 #include <mps/types.h>
 #include <stddef.h>
@@ -96,7 +97,11 @@ MPS_API int32_t mps_job_ranks_leave(const mps_job_ranks *ranks, int32_t code, in
 typedef struct mps_job_config {
     /** Set by mps_job_config_init(). */
     uint32_t struct_size;
-    /** 1: continue from the checkpoint in the folder. */
+    /** 1: continue from the checkpoint in the folder; a run without a checkpoint that did not reach
+     *  its end begins again. Where `text` is set, it must be the case of the folder, but for its
+     *  run.until, run.threads, run.checkpoint, run.checkpoint_clock, and for what is measured or
+     *  written after the run: title, impacts, collect, references and output, of it not rate,
+     *  frame, trace and pieces. */
     int32_t resume;
     /** Name of the case in messages, in summary.json and on the page; required. */
     const char *name;
@@ -114,7 +119,8 @@ typedef struct mps_job_config {
     double t_end;
     /** Interval of rows in probes.csv and momentum.csv [s]; default 1e-3. */
     double row_interval;
-    /** Interval of checkpoints [s]; default 0: only when interrupted. */
+    /** Interval of checkpoints in simulated time [s], besides those of checkpoint_clock; default 0:
+     *  none. */
     double checkpoint;
     /** Gravity [m/s2], for the colour scale of pictures (picture.h); default 9.81. */
     double gravity;
@@ -139,9 +145,10 @@ typedef struct mps_job_config {
     int32_t profile;
     /** 1: no progress, no messages but of failures. */
     int32_t quiet;
-    /** 1: the first SIGINT, SIGTERM or SIGHUP stops the run after its step; handlers are installed
-     *  while mps_job_run() runs; after a SIGHUP, SIGHUP is ignored from then on, since terminals
-     *  send it more than once. Default 0. */
+    /** 1: the first SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2 or SIGXCPU stops the run after its
+     *  step; handlers are installed while mps_job_run() runs. A second SIGINT or SIGTERM ends the
+     *  process at once. Terminals and queues send the others more than once: one that stopped the
+     *  run is ignored from then on. Default 0. */
     int32_t signals;
     /** 1: write trace.csv, the added columns after every step. mps_job_trace_add() sets it too. */
     int32_t trace;
@@ -167,6 +174,17 @@ typedef struct mps_job_config {
     /** Device of the time steps. NULL: the host; "cuda", "cuda:1": a GPU of NVIDIA, by libmps_cuda,
      *  which mps_job_run() loads. The outputs are the same. */
     const char *device;
+    /** Peaks of each pressure with finer frames about them, in peaks.pvd with peaks/: the highest
+     *  ones, at most 10, fewer of more than four pressures. 0: none. Default 10. */
+    int32_t peaks;
+    /** Kept 0. */
+    int32_t reserved;
+    /** Interval of checkpoints by the wall clock [s]; default 600; 0: none. It is extended so that
+     *  checkpoints take at most a hundredth of the time of the run. A checkpoint is also written
+     *  when a signal or mps_job_stop() stops the run, and before the last steps, whose lengths are
+     *  fitted to t_end: a run that goes on from it to a later t_end has the bytes of one run to
+     *  that t_end. */
+    double checkpoint_clock;
 } mps_job_config;
 
 /** Set every entry to its default. @param size  sizeof(mps_job_config) @return MPS_E_ARG: bad
@@ -224,7 +242,9 @@ enum {
      *  calls that all ranks make. Others are asked on all ranks. */
     MPS_JOB_PARTICLES = 1,
     /** It is known after the first step: the row of t = 0 has the value of that step. */
-    MPS_JOB_PRESSURE = 2
+    MPS_JOB_PRESSURE = 2,
+    /** It is how the tank moves: the page has it with the other motions. */
+    MPS_JOB_MOTION = 4
 };
 
 /** Add a column with a quantity of the program.
@@ -418,6 +438,11 @@ MPS_API mps_status mps_job_level_set(mps_job *job, double level);
 /** Add an input of the case to "inputs" of summary.json and to the page, e.g. "dp" and "4 mm".
  *  @return MPS_E_ARG, MPS_E_NOMEM */
 MPS_API mps_status mps_job_input_add(mps_job *job, const char *key, const char *value);
+
+/** Name a plug-in that the simulation has, for "plugins" of summary.json and for the page: its
+ *  name, version, file, SHA-256 and what it registers. 16 at most.
+ *  @param plugin  it lives as long as the job @return MPS_E_ARG */
+MPS_API mps_status mps_job_plugin_add(mps_job *job, const mps_plugin_file *plugin);
 
 /** Add a line of the sketch on the page, e.g. the tank or a baffle, in its frame; 2-D, or a cut.
  *  @param count  number of points, >= 2; closed where the last is the first

@@ -207,6 +207,21 @@ MPS_API mps_status mps_motion_clear(mps_sim *sim);
  *  @return MPS_E_ARG */
 MPS_API mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state);
 
+/** Pose, rates and accelerations that the motion has at another time, as mps_run() will use them:
+ *  of a table those of its spline, of harmonics with their ramps. Without a motion the tank keeps
+ *  its pose.
+ *  @param t      [s], finite; before the first row of a table its first row
+ *  @param state  initialised by mps_motion_state_init(); out
+ *
+ *  | error | reason; `state` is as before |
+ *  |---|---|
+ *  | MPS_E_ARG | t is not finite; `state` was not initialised |
+ *  | MPS_E_STATE | a body carries the tank, so its motion is not known in advance; t is after |
+ *  | | the last row of a table or the pose of mps_motion_pose_set() |
+ *  | MPS_E_PLUGIN | the callback fails at t |
+ *  | MPS_E_BUSY | called from a verb or a callback | */
+MPS_API mps_status mps_motion_state_at(mps_sim *sim, double t, mps_motion_state *state);
+
 /** Map a point from the frame of the tank to the lab at the present time.
  *  @param tank      [dim] [m], finite
  *  @param lab       [dim] out [m]

@@ -10,10 +10,13 @@
  *      tank.size[0] = 1.0, tank.size[1] = 0.6;
  *      sim.add(tank);
  *      sim.fill_level({0, 0}, {1.0, 0.3});
- *      sim.run(2.0, [](mps::simulation &s, const mps_step_info &info) { return info.t < 1.0; });
+ *      sim.run(2.0, [](mps::simulation &s, const mps_step_info &info) { return info.t > 1.0; });
  *
- *  Objects of one simulation are used by one thread at a time. A probe, a lease and frames must not
- *  outlive their simulation. */
+ *  Objects of one simulation are used by one thread at a time. A probe, a lease and frames keep
+ *  their simulation in memory, even after its object was destroyed or assigned. So does each call:
+ *  a callback may destroy, move or assign the object. A run whose simulation has no object any more
+ *  stops after its step, and the simulation is destroyed when the call returns. A simulation that
+ *  was moved from is empty: its calls throw MPS_E_STATE. */
 #ifndef MPS_HPP
 #define MPS_HPP
 
@@ -106,6 +109,9 @@ struct point : std::array<double, 3> {
 
 class simulation;
 
+/** What a probe, a lease or frames hold of their simulation, so that it is destroyed after them. */
+using keeper = std::shared_ptr<const void>;
+
 /** An array of particles, without a copy. T: double (all fields of numbers), const int32_t ("kind",
  *  "phase", "part", "region", "plate"), const int64_t ("id"). Const T: for reading. It holds the
  *  order of the particles until it is destroyed or end() is called; the span must not be used after
@@ -116,14 +122,18 @@ template <class T> class lease {
     static_assert(std::is_same_v<value, double> || std::is_const_v<T>,
                   "fields of integers are for reading");
 
-    lease(mps_sim *sim, const char *field);
+    /** @param keep  empty: the simulation must outlive the lease */
+    lease(mps_sim *sim, const char *field, keeper keep = {});
     lease(const lease &) = delete;
     lease &operator=(const lease &) = delete;
-    lease(lease &&other) noexcept : sim_(std::exchange(other.sim_, nullptr)), lease_(other.lease_)
+    lease(lease &&other) noexcept
+        : keep_(std::move(other.keep_)), sim_(std::exchange(other.sim_, nullptr)),
+          lease_(std::exchange(other.lease_, mps_lease{}))
     {
     }
     lease &operator=(lease &&other) noexcept
     {
+        keep_.swap(other.keep_);
         std::swap(sim_, other.sim_);
         std::swap(lease_, other.lease_);
         return *this;
@@ -135,7 +145,7 @@ template <class T> class lease {
     }
     /** End the lease; fails where a written value is not finite, and the lease stays open. */
     void end();
-    /** All numbers, particle by particle. */
+    /** All numbers, particle by particle; empty after end(). */
     span<T> values() const
     {
         return {start(), static_cast<std::size_t>(lease_.count * lease_.stride)};
@@ -157,6 +167,7 @@ template <class T> class lease {
         else
             return lease_.ids;
     }
+    keeper keep_;
     mps_sim *sim_;
     mps_lease lease_{};
 };
@@ -164,7 +175,10 @@ template <class T> class lease {
 /** A sensor of a simulation. */
 class probe {
   public:
-    probe(mps_sim *sim, int32_t id) : sim_(sim), id_(id) {}
+    /** @param keep  empty: the simulation must outlive the probe */
+    probe(mps_sim *sim, int32_t id, keeper keep = {}) : keep_(std::move(keep)), sim_(sim), id_(id)
+    {
+    }
     int32_t id() const noexcept { return id_; }
     /** Its values now. */
     std::vector<double> read() const;
@@ -176,6 +190,7 @@ class probe {
     void remove() const;
 
   private:
+    keeper keep_;
     mps_sim *sim_;
     int32_t id_;
 };
@@ -183,7 +198,11 @@ class probe {
 /** A series of frames for ParaView. */
 class frames {
   public:
-    frames(mps_sim *sim, mps_frames *f) : sim_(sim), frames_(f) {}
+    /** @param keep  empty: the simulation must outlive the frames */
+    frames(mps_sim *sim, mps_frames *f, keeper keep = {})
+        : keep_(std::move(keep)), sim_(sim), frames_(f)
+    {
+    }
     /** Write the present state. */
     void write();
 
@@ -191,6 +210,7 @@ class frames {
     struct close {
         void operator()(mps_frames *f) const noexcept { mps_frames_close(f); }
     };
+    keeper keep_;
     mps_sim *sim_;
     std::unique_ptr<mps_frames, close> frames_;
 };
@@ -217,18 +237,21 @@ class simulation {
     explicit simulation(config c, const char *preset = nullptr, logger log = {});
     simulation(const simulation &) = delete;
     simulation &operator=(const simulation &) = delete;
-    simulation(simulation &&) noexcept = default;
+    simulation(simulation &&other) noexcept : held_(std::move(other.held_)) { own(this); }
     simulation &operator=(simulation &&other) noexcept
     {
-        calls_.swap(other.calls_);
-        sim_.swap(other.sim_);
+        if (this == &other) return *this;
+        own(nullptr);
+        held_ = std::move(other.held_);
+        own(this);
         return *this;
     }
+    ~simulation() { own(nullptr); }
 
-    /** For functions of C. */
-    mps_sim *handle() const noexcept { return sim_.get(); }
+    /** For functions of C; NULL: it was moved from. */
+    mps_sim *handle() const noexcept { return held_ ? held_->sim : nullptr; }
     /** Throw what a function of C failed with, or what a callback threw. */
-    mps_status check(mps_status status) const;
+    mps_status check(mps_status status) const { return in()(status); }
 
     int32_t dim() const;
     /** Spacing [m] */
@@ -236,34 +259,34 @@ class simulation {
     /** Time [s] */
     double time() const;
     int64_t steps() const;
-    int64_t count(int32_t kind = -1) const { return mps_particles_count(handle(), kind); }
+    int64_t count(int32_t kind = -1) const { return mps_particles_count(in().kept->sim, kind); }
 
-    void set(int32_t index, const mps_phase &p) { check(mps_phase_set(handle(), index, &p)); }
-    void set(const mps_time_control &c) { check(mps_time_control_set(handle(), &c)); }
-    void set(const mps_solver_limits &l) { check(mps_solver_limits_set(handle(), &l)); }
+    void set(int32_t index, const mps_phase &p) { in()(mps_phase_set(handle(), index, &p)); }
+    void set(const mps_time_control &c) { in()(mps_time_control_set(handle(), &c)); }
+    void set(const mps_solver_limits &l) { in()(mps_solver_limits_set(handle(), &l)); }
     void set(const char *slot, const char *key, double value)
     {
-        check(mps_model_set(handle(), slot, key, value));
+        in()(mps_model_set(handle(), slot, key, value));
     }
     double get(const char *slot, const char *key) const;
-    void use(const char *model) { check(mps_model_use(handle(), model)); }
+    void use(const char *model) { in()(mps_model_use(handle(), model)); }
     /** Register a model of a plug-in and switch it on.
      *  @param ops  its strings and tables live as long as the simulation */
     void use(const mps_model_ops &ops);
-    void remove(const char *slot) { check(mps_model_remove(handle(), slot)); }
+    void remove(const char *slot) { in()(mps_model_remove(handle(), slot)); }
     void solver(const char *name, const char *preconditioner = nullptr)
     {
-        check(mps_solver_use(handle(), name, preconditioner));
+        in()(mps_solver_use(handle(), name, preconditioner));
     }
 
     /** @return size as built */
     std::array<double, 3> add(const mps_tank &t);
-    void add(const mps_solid &s) { check(mps_solid_add(handle(), &s)); }
+    void add(const mps_solid &s) { in()(mps_solid_add(handle(), &s)); }
     /** @return corners as built */
     std::array<double, 6> add(const std::string &path, const mps_stl &s);
     void baffle(const char *name, const point &lo, const point &hi)
     {
-        check(mps_baffle_add(handle(), name, lo.data(), hi.data(), nullptr));
+        in()(mps_baffle_add(handle(), name, lo.data(), hi.data(), nullptr));
     }
     /** A solid by its distance [m], double(const double *x), in the box of s.lo and s.hi. */
     template <class F> void add(solid s, F distance);
@@ -276,12 +299,12 @@ class simulation {
     std::vector<int64_t> add(const mps_particle_block &block);
     void remove(const std::vector<int64_t> &ids)
     {
-        check(mps_particles_remove(handle(), static_cast<int64_t>(ids.size()), ids.data()));
+        in()(mps_particles_remove(handle(), static_cast<int64_t>(ids.size()), ids.data()));
     }
 
     void centre(const point &c, int32_t start = MPS_START_AT_REST)
     {
-        check(mps_motion_centre_set(handle(), c.data(), start));
+        in()(mps_motion_centre_set(handle(), c.data(), start));
     }
     void move(const std::vector<mps_harmonic> &harmonics);
     void move(motion function);
@@ -297,51 +320,79 @@ class simulation {
     /** lease<const double>("position"), lease<double>("velocity") for writing */
     template <class T> mps::lease<T> lease(const char *field)
     {
-        return mps::lease<T>(handle(), field);
+        const call now = in();
+        return mps::lease<T>(now.kept->sim, field, now.kept);
     }
 
     /** One step of at most dt_max [s]. */
     step_info step(double dt_max);
-    /** Step until t_end. @param monitor  bool(simulation &, const mps_step_info &); false stops the
-     *  run @return whether t_end was reached */
+    /** Step until t_end.
+     *  @param monitor  of (simulation &, const mps_step_info &), after each step. It returns a bool
+     *                  or a number, of which true stops the run, as in C; or nothing
+     *  @return whether t_end was reached */
     template <class F> bool run(double t_end, F monitor);
     bool run(double t_end)
     {
-        return check(mps_run(handle(), t_end, nullptr, nullptr)) != MPS_W_STOPPED;
+        return run(t_end, [](simulation &, const mps_step_info &) {});
     }
 
     mps::frames frames(const std::string &folder, const std::string &name, int32_t kinds = 0);
-    void checkpoint(const std::string &path)
-    {
-        check(mps_checkpoint_write(handle(), path.c_str()));
-    }
-    void restore(const std::string &path) { check(mps_checkpoint_read(handle(), path.c_str())); }
+    void checkpoint(const std::string &path) { in()(mps_checkpoint_write(handle(), path.c_str())); }
+    void restore(const std::string &path) { in()(mps_checkpoint_read(handle(), path.c_str())); }
 
   private:
-    struct destroy {
-        void operator()(mps_sim *s) const noexcept { mps_sim_destroy(s); }
+    /* A function of the user, at a place of its own: the library has a pointer to it. */
+    struct held;
+    template <class F> struct bound {
+        held *of;
+        F function;
     };
-    struct callbacks { /* at one place in memory, because the library has pointers to it */
+    /* The simulation of C and what it calls. Its object, its children and its calls share it. */
+    struct held {
+        explicit held(logger l) : log(std::move(l)) {}
+        held(const held &) = delete;
+        held &operator=(const held &) = delete;
+        ~held() { mps_sim_destroy(sim); }
+        mps_sim *sim = nullptr;
+        simulation *owner = nullptr; /* NULL: destroyed or assigned */
         logger log;
-        motion move;
-        body_load load;
+        std::unique_ptr<bound<motion>> move;
+        std::unique_ptr<bound<body_load>> load;
         std::exception_ptr failed;
     };
-    template <class F>
-    static auto guarded(callbacks *c, F call, decltype(call()) otherwise) -> decltype(call())
+    /* A call, in()(mps_...(handle())): in() is evaluated first, and keeps the simulation. */
+    struct call {
+        std::shared_ptr<held> kept;
+        mps_status operator()(mps_status status) const
+        {
+            if (kept->failed) std::rethrow_exception(std::exchange(kept->failed, nullptr));
+            return mps::check(kept->sim, status);
+        }
+    };
+    call in() const
     {
-        if (c->failed) return otherwise;
+        if (!held_) throw error(MPS_E_STATE, "the simulation is empty: it was moved from");
+        return {held_};
+    }
+    void own(simulation *owner) noexcept
+    {
+        if (held_) held_->owner = owner;
+    }
+    template <class F>
+    static auto guarded(held *h, F call, decltype(call()) otherwise) -> decltype(call())
+    {
+        if (h->failed) return otherwise;
         try {
             return call();
         } catch (...) {
-            c->failed = std::current_exception();
+            h->failed = std::current_exception();
             return otherwise;
         }
     }
-    int64_t newest() const;
-    void remove_since(int64_t first);
-    std::unique_ptr<callbacks> calls_;
-    std::unique_ptr<mps_sim, destroy> sim_;
+    template <class F> static bool stops(held *h, F &monitor, const mps_step_info &info);
+    static int64_t newest(mps_sim *sim);
+    static void remove_since(mps_sim *sim, int64_t first);
+    std::shared_ptr<held> held_;
 };
 
 } // namespace mps

@@ -25,7 +25,9 @@ enum {
     MPS_FRAMES_PIECES = 16,
     /** Positions in the frame of the tank, and velocities relative to the tank along its axes: the
      *  walls stand still. Fields of the user stay as they are. */
-    MPS_FRAMES_TANK = 32
+    MPS_FRAMES_TANK = 32,
+    /** Files have the number of the step, not of the frame: mps_frames_remove() is allowed. */
+    MPS_FRAMES_STEPS = 64
 };
 
 /** Open a series: writes FOLDER/NAME.pvd and FOLDER/NAME/NAME_000000.vtp ...; the folder
@@ -68,6 +70,18 @@ MPS_API mps_status mps_frames_open(mps_sim *sim, const char *folder, const char 
  *          from a verb or a callback); MPS_E_RANKS (another rank failed) */
 MPS_API mps_status mps_frames_write(mps_frames *frames);
 
+/** @param user  as given to mps_frames_remove() @param t  time of a frame [s]
+ *  @return 0: the frame is removed */
+typedef int (*mps_frames_wanted_fn)(void *user, double t);
+
+/** Remove frames that are not wanted, with their files. The .pvd is replaced before, so that it
+ *  names no file that is missing. With MPS_FRAMES_CONTINUE, frames that were removed after the
+ *  checkpoint are not in the series. On many ranks rank 0 removes the files of all ranks; the call
+ *  of another rank does nothing.
+ *  @param wanted  called for each frame, in the order of time
+ *  @return MPS_E_ARG: an argument is NULL; the series has no MPS_FRAMES_STEPS; MPS_E_IO */
+MPS_API mps_status mps_frames_remove(mps_frames *frames, mps_frames_wanted_fn wanted, void *user);
+
 /** Close a series; NULL is allowed. */
 MPS_API void mps_frames_close(mps_frames *frames);
 
@@ -87,6 +101,18 @@ MPS_API void mps_frames_close(mps_frames *frames);
  *  | MPS_E_NOMEM | no memory |
  *  | MPS_E_RANKS | another rank failed | */
 MPS_API mps_status mps_checkpoint_write(mps_sim *sim, const char *path);
+
+/** Add a line to the set-up that checkpoints hold, for what the library does not see: e.g. the
+ *  version of a plug-in, or the checksum of a table that a motion callback reads. A checkpoint is
+ *  read only by a simulation with the same lines in the same order; states that differ in a line
+ *  are refused with MPS_E_ARG and both lines.
+ *  @param text  1..191 characters, one line; copied
+ *
+ *  | error | reason |
+ *  |---|---|
+ *  | MPS_E_ARG | text is NULL, empty, too long or more than a line; 17 lines are one too many |
+ *  | MPS_E_BUSY | called from a monitor, a verb or a callback | */
+MPS_API mps_status mps_checkpoint_note_add(mps_sim *sim, const char *text);
 
 /** Continue where mps_checkpoint_write() was called, in a simulation that was set up by the same
  *  calls: configuration, phases, models with their settings, solids, fields, motion, probes. The

@@ -39,7 +39,7 @@ typedef struct mps_page_info {
     /** Moving particles in the film. */
     int64_t particles;
     /** What was left out of the film to keep the limit, one sentence; "" for nothing. */
-    char left_out[240];
+    char left_out[320];
 } mps_page_info;
 
 /** Set all members to their defaults: all frames, 12,000,000 bytes, no text of errors.

@@ -4,7 +4,8 @@
  *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >=
  *  0. A is symmetric positive (semi-)definite for the default models. Rows of a gas may be
  *  nonlinear: A p + gas (f(p) - p) = b, f by mps_ppe_law(). A holds their linear part, so gas_i <=
- *  s_i. Built-in solvers use this interface and no other. */
+ *  s_i. Built-in solvers and preconditioners have this interface, too. Equations on a device
+ *  (<mps/device.h>) are for those built-in ones alone that mps_sim_device_set() names. */
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
@@ -84,7 +85,8 @@ typedef struct mps_ppe_problem {
     const double *shift;
     /** [n] residual times weight = divergence times dt */
     const double *weight;
-    /** [n*dim] positions of the unknowns [m]; on many ranks [(n + ghosts)*dim] */
+    /** [n*dim] positions of the unknowns less the displacement of the tank [m], so that a solution
+     *  does not depend on a uniform motion; on many ranks [(n + ghosts)*dim] */
     const double *x;
     /** Particle spacing [m]. */
     double dp;

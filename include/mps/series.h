@@ -108,6 +108,24 @@ typedef struct mps_table mps_table;
  *  | MPS_E_NOMEM | | */
 MPS_API mps_status mps_table_read(const mps_stats_config *config, const char *path, int32_t count,
                                   const char *const *names, mps_table **table);
+/** Read all columns of a table of a run, as mps_table_read() does. The folder may be from others: a
+ *  link that leads out of it, and what is no regular file, is MPS_E_IO.
+ *  @param folder  that a run has written
+ *  @param name    "probes.csv", "trace.csv" */
+MPS_API mps_status mps_table_read_run(const mps_stats_config *config, const char *folder,
+                                      const char *name, mps_table **table);
+/** Read known values that the case of a run names (key `reference`), from its summary.json: a table
+ *  with one column. Its name is that of the column of probes.csv to which it belongs, or "": all
+ *  columns of its unit.
+ *  @param folder  that a run has written
+ *  @param index   from 0, in the order of the case
+ *  @return MPS_E_NAME: there is no such reference, no text; MPS_E_IO; MPS_E_ARG; MPS_E_NOMEM */
+MPS_API mps_status mps_table_read_reference(const mps_stats_config *config, const char *folder,
+                                            int32_t index, mps_table **table);
+/** What a reference is called. "": the table is no reference; NULL for NULL. */
+MPS_API const char *mps_table_label(const mps_table *table);
+/** @return 1: the values of a reference are single points; 0: a line goes through them */
+MPS_API int32_t mps_table_is_points(const mps_table *table);
 /** Free it. NULL is allowed. */
 MPS_API void mps_table_destroy(mps_table *table);
 
@@ -119,6 +137,10 @@ MPS_API int32_t mps_table_columns(const mps_table *table);
 
 /** Name of a column without its unit; -1 is the time. NULL: no such column. */
 MPS_API const char *mps_table_name(const mps_table *table, int32_t column);
+
+/** @return 1: a column that every run has, an energy or the place of the tank; 0: another one, or
+ *          there is none */
+MPS_API int32_t mps_table_is_common(const mps_table *table, int32_t column);
 
 /** Unit of a column, "" for none; -1 is the time. NULL: no such column. */
 MPS_API const char *mps_table_unit(const mps_table *table, int32_t column);
@@ -211,6 +233,8 @@ typedef struct mps_comparison {
     double correlation;
     /** `shift` as an angle of config.period, 2 pi shift/period [rad]. NAN: no period. */
     double phase;
+    /** Known samples of the first series in the time that both have. */
+    int64_t points;
 } mps_comparison;
 
 /** Set struct_size and zero. @param size  sizeof(mps_comparison) @return MPS_E_ARG */
@@ -221,6 +245,15 @@ MPS_API mps_status mps_comparison_init(mps_comparison *c, size_t size);
  *  @return MPS_E_ARG: an argument; no common time; MPS_E_NOMEM */
 MPS_API mps_status mps_series_compare(const mps_stats_config *config, const mps_series *first,
                                       const mps_series *second, mps_comparison *c);
+
+/** Compare a series with single points, such as measured crests: mps_series_compare() at the points
+ *  alone, because no value between them is known. `shift` needs five points and more.
+ *  @param points  the first of both; any number of samples >= 1
+ *  @param series  linear between its samples
+ *  @param c       initialised; out
+ *  @return MPS_E_ARG: an argument; no point in the time of the series; MPS_E_NOMEM */
+MPS_API mps_status mps_points_compare(const mps_stats_config *config, const mps_series *points,
+                                      const mps_series *series, mps_comparison *c);
 
 /** How three values follow the spacing. */
 enum {

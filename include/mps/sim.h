@@ -53,7 +53,8 @@ typedef struct mps_config {
     double domain_min[3];
     /** Upper corner of the domain [m]. */
     double domain_max[3];
-    /** Speed of a particle at which the run counts as diverged [m/s]; default 1000. */
+    /** Speed of a particle relative to the tank at which the run counts as diverged [m/s]; default
+     *  1000. */
     double speed_limit;
     /** Default: malloc and free. */
     mps_allocator allocator;
@@ -81,7 +82,10 @@ MPS_API mps_status mps_config_init(mps_config *config, size_t size);
  *          uninitialised config yields only the status code, no text */
 MPS_API mps_status mps_sim_create(const mps_config *config, mps_sim **sim);
 
-/** Destroy a simulation and all it owns. NULL is allowed. */
+/** Destroy a simulation and all it owns. NULL is allowed. Called from a callback of this
+ *  simulation (log, monitor, motion, load of a body, inside function, kernel, verb, create or
+ *  destroy of a model) it does nothing: mps_sim_error() and a warning say so; a log callback gets
+ *  no warning. */
 MPS_API void mps_sim_destroy(mps_sim *sim);
 
 /** Text of the last failed call on this handle: what failed, which value, what is allowed. Never

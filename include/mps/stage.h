@@ -181,7 +181,8 @@ typedef struct mps_view {
     mps_flux flux;
     /** The rigid tank. */
     mps_tank_pose tank;
-    /** From MPS_LIMIT on: no particle was faster when the step began; INFINITY: not known [m/s] */
+    /** From MPS_LIMIT on: no particle was faster relative to the tank when the step began;
+     *  INFINITY: not known [m/s] */
     double fastest;
 } mps_view;
 
@@ -289,7 +290,8 @@ MPS_API void mps_stage_sum(const mps_stage *s, int32_t count, const mps_sums *ad
 MPS_API void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *raise,
                            const void *fields, double *maxima);
 
-/** Mark rows with a near neighbour among the member rows. Solids away from fluid have no pairs.
+/** Mark rows with a near neighbour among the member rows. Solids away from fluid have no pairs. In
+ *  all hooks after MPS_POPULATE, whose particles have no pairs yet.
  *  @param member  [n] not 0 for member rows @param beside  [n] out: 1 or 0
  *  @return 0, or non-zero after a failure (the error is set) */
 MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
@@ -306,8 +308,9 @@ enum {
     MPS_BODY_ANCHOR = 3
 };
 
-/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds. Solids may be
- *  anchors and belong to no body. Borrows up to 3 blocks of scratch and returns them.
+/** Find bodies, sets of fluid rows linked by near pairs, that no anchor holds, in all hooks after
+ *  MPS_POPULATE. Solids may be anchors and belong to no body. Borrows up to 3 blocks of scratch and
+ *  returns them.
  *  @param most  bodies with more rows count as held @param role  [n] MPS_BODY_...
  *  @param body  [n] out: 0.. for rows of bodies that are free, by the least id of each, else -1
  *  @return 0, or non-zero after a failure (no memory; the error is set) */
@@ -380,6 +383,23 @@ static inline void mps_view_tank(const mps_view *v, const double *x, double *pla
                           ? (k->centre[d] + k->next_shift[d] + turned[d] - x[d]) / v->dt
                           : k->rate[d] + (k->omega[e] * turned[f] - k->omega[f] * turned[e]);
     }
+}
+
+/** Velocity of a particle relative to the rigid tank, whose rates are those at the beginning of the
+ *  step: u of a tank at rest, to the bit. Compare speeds by it, so that a model does not depend on
+ *  a uniform motion of the tank.
+ *  @param dim  2 or 3, constant in a row function @param x  [dim] e.g. v->x + i * dim [m]
+ *  @param u  [dim] its velocity in the lab @param relative  [dim] out [m/s] */
+static inline void mps_view_relative(const int dim, const mps_view *v, const double *x,
+                                     const double *u, double *relative)
+{
+    const mps_tank_pose *k = &v->tank;
+    const double *w = k->omega;
+    double arm[3] = {0, 0, 0};
+    for (int d = 0; d < dim; d++) arm[d] = x[d] - k->centre[d] - k->shift[d];
+    relative[0] = u[0] - (k->rate[0] + (dim == 2 ? -w[2] * arm[1] : w[1] * arm[2] - w[2] * arm[1]));
+    relative[1] = u[1] - (k->rate[1] + (dim == 2 ? w[2] * arm[0] : w[2] * arm[0] - w[0] * arm[2]));
+    if (dim == 3) relative[2] = u[2] - (k->rate[2] + (w[0] * arm[1] - w[1] * arm[0]));
 }
 
 /** Scratch, or a channel, whose values a verb wrote and then reads at neighbours. */

@@ -67,8 +67,8 @@ typedef struct mps_stats_constant {
 MPS_API mps_status mps_stats_constant_get(const mps_stats_config *config, int32_t index,
                                           mps_stats_constant *constant);
 
-/** @return 1: this sensor is looked at: config.sensors names it, or none; 0: it is not, or an
- *          argument is NULL or not initialised */
+/** @return 1: this sensor is looked at: config.sensors names it, or none; 0: it is not, an argument
+ *          is NULL or not initialised, or config.sensors has no terminating 0 */
 MPS_API int32_t mps_stats_wants(const mps_stats_config *config, const char *name);
 
 /* ---- impacts ---- */

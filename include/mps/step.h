@@ -18,9 +18,10 @@ typedef struct mps_time_control {
     /** > 0: fixed step [s], the other entries are ignored; 0 (default): adaptive. A warning is
      *  logged once when fluid moves more than dp in a fixed step. */
     double dt;
-    /** dt |u|max / dp; default 0.3. |u|max: of the fluid, of walls in the step to come, and of both
-     *  relative to each other. Besides, a motion of the tank limits adaptive steps so that none
-     *  misses a part of it (mps/motion.h). */
+    /** dt |u|max / dp; default 0.3. |u|max: of the fluid relative to the tank, of the change of the
+     *  walls' velocity in the step to come, and of the fluid relative to the walls then; a uniform
+     *  motion of the tank with its liquid does not limit steps. Besides, a motion of the tank
+     *  limits adaptive steps so that none misses a part of it (mps/motion.h). */
     double cfl;
     /** dt U_g / dp, U_g the velocity scale; default 0.06. */
     double gravity;
@@ -76,7 +77,8 @@ typedef struct mps_step_info {
     double dt;
     /** dt |u|max / dp */
     double cfl;
-    /** |u|max of the fluid in the frame of the lab [m/s]. */
+    /** |u|max of the fluid relative to the rigid tank at its place [m/s]: liquid that moves or
+     *  turns with its tank has 0. */
     double max_speed;
     /** True relative 2-norm of the residual. */
     double ppe_residual;
@@ -158,14 +160,17 @@ MPS_API mps_status mps_step_info_get(mps_sim *sim, mps_step_info *info);
  *  | MPS_E_NOMEM | no memory | */
 MPS_API mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info);
 
-/** Called after every step of mps_run(); non-zero stops the run. It may call functions that change
- *  nothing: getters, lists, leases for reading, stencils, probes, energies, frames,
- *  mps_checkpoint_write(), and mps_probe_series_clear(). Functions that change the simulation
- *  return MPS_E_BUSY; mps_sim_destroy() does nothing. A lease that is open when the monitor returns
- *  ends the run with MPS_E_BUSY. */
+/** Called after every step of mps_run(); non-zero stops the run, in C++ and Python true. It may
+ *  call functions that change nothing: getters, lists, leases for reading, stencils, probes,
+ *  energies, frames, mps_checkpoint_write(), and mps_probe_series_clear(). Functions that change
+ *  the simulation return MPS_E_BUSY; mps_sim_destroy() does nothing. A lease that is open when the
+ *  monitor returns ends the run with MPS_E_BUSY. */
 typedef int (*mps_monitor_fn)(void *user, mps_sim *sim, const mps_step_info *info);
 
-/** Step until t_end; the last step is cut so that t_end is met exactly.
+/** Step until t_end; the last step is cut so that t_end is met exactly. Where t_end is the present
+ *  time but for rounding, 1e-12 max(1 s, |t_end|), no step is taken. After MPS_OK and
+ *  MPS_W_NOT_CONVERGED mps_sim_time() is t_end, to the last bit.
+ *  @param t_end  finite, not before the present time but for this rounding [s]
  *  @param monitor  NULL, or the callback
  *  @return MPS_OK, MPS_W_STOPPED, MPS_W_NOT_CONVERGED (if any step was), or the error of the
  *          failing step */

@@ -7,12 +7,13 @@ typedef struct speeds {
     double phase;
 } speeds;
 
-/* The maximum over the gas of |u|^2. */
+/* The maximum over the gas of |u|^2, relative to the tank. */
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
     if (!mps__is_gas(v, i, f->phase)) return;
-    double square = 0;
-    for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
+    double u[3], square = 0;
+    mps_view_relative(dim, v, v->x + i * dim, f->velocity + i * dim, u);
+    for (int d = 0; d < dim; d++) square += u[d] * u[d];
     most[0] = mps_larger(most[0], square);
 }
 MPS_SUMS(raise_speed_rows, raise_speed, speeds)
@@ -34,7 +35,7 @@ int mps__gas_check(mps_stage *s, double phase, double sound, const double *veloc
     if (!(fastest < sound))
         return mps_stage_fail(
             s,
-            "a particle of phase %d moves at %g m/s, and the speed of sound there "
+            "a particle of phase %d moves at %g m/s in the tank, and the speed of sound there "
             "is %g m/s: it must be greater",
             (int)phase, fastest, sound);
     return 0;

@@ -126,7 +126,7 @@ MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_face
     for (int32_t k = f->begin[i]; k < f->begin[i + 1]; k++) {
         const int32_t face = f->face[k], label = f->voids.face_label[face] - f->from;
         int32_t axis;
-        double at[3], place[3];
+        double at[3], place[3] = {0};
         if (label < 0 || label >= PAIR) continue;
         const double sign = direction(&f->voids, face, &axis);
         const int64_t j = surface_of(dim, v, f, i, axis);
@@ -226,7 +226,7 @@ MPS_ROW double face_flux(const int dim, const mps_view *v, const mps__pocket_fac
                          int32_t face, double rise[3][3])
 {
     int32_t axis;
-    double tank[3], along[3], lab[3] = {0}, x[3] = {0}, flux = 0;
+    double tank[3] = {0}, along[3], lab[3] = {0}, x[3] = {0}, flux = 0;
     const double sign = direction(&f->voids, face, &axis);
     for (int d = 0; d < 3; d++) along[d] = d == axis ? sign : 0;
     to_lab(dim, v, along, lab);

@@ -313,13 +313,14 @@ static inline double relaxation(const double *k, double delta, double open, doub
     return mps_smaller(1.0, (open + firm * firm) / k[TAU]) + mps_smaller(1.0, torn * torn) * most;
 }
 
-/* Maxima of |u|^2: of fluid denser than the lightest, of all fluid. */
+/* Maxima of |u|^2, relative to the tank: of fluid denser than the lightest, of all fluid. */
 MPS_ROW void raise_speed(const int dim, const mps_view *view, const fields *f, int64_t i,
                          double *most)
 {
     if (!mps_is_fluid(view, i) || mps_region_of(f->region, i) >= MPS_REGION_SURFACE) return;
-    double square = 0;
-    for (int d = 0; d < dim; d++) square += f->velocity[i * dim + d] * f->velocity[i * dim + d];
+    double u[3], square = 0;
+    mps_view_relative(dim, view, view->x + i * dim, f->velocity + i * dim, u);
+    for (int d = 0; d < dim; d++) square += u[d] * u[d];
     most[1] = mps_larger(most[1], square);
     if (f->density[i] > f->pace.lightest) most[0] = mps_larger(most[0], square);
 }

@@ -181,6 +181,7 @@ static mps_status make(const film *f, const mps_film_config *config, const char 
     snprintf(url, length + 10, "file:%s.tmp", path);
     const char *temporary = url + strlen("file:");
     making m = {.config = config, .f = f, .url = url, .e = e};
+    remove(temporary); /* it may be a link */
     mps_status status = add_frames(&m);
     if (status == MPS_OK && rename(temporary, path) != 0)
         status = mps__page_fail(e, MPS_E_IO, "cannot write '%s': %s", path, strerror(errno));

@@ -3,8 +3,8 @@
 #include "page_assets.h"
 #include "page_parts.h"
 #include "page_text.h"
+#include "run_file.h"
 #include <errno.h>
-#include <locale.h>
 #include <mps/page.h>
 #include <mps/stats.h>
 #include <stdlib.h>
@@ -46,7 +46,7 @@ static mps_status part_open(part *p, const page_run *r)
 {
     char *path = mps__page_path(r->folder, "report.html.part");
     if (!path) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    p->out = fopen(path, "w+b");
+    p->out = mps__run_create(path, "w+b");
     mps_status status = p->out ? MPS_OK : part_fail(r);
     if (p->out) remove(path); /* it stays as long as it is open */
     p->size = -1;
@@ -140,15 +140,15 @@ static void write_scripts(FILE *out)
 static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
 {
     mps__page_sketch(out, r);
-    mps_status status = mps__page_impacts(out, r, bytes / 10);
+    mps_status status = mps__page_comparison(out, r);
+    if (status == MPS_OK) status = mps__page_impacts(out, r, bytes / 10);
     mps__page_forces(out, r);
     mps__page_budget(out, r);
     if (status == MPS_OK && r->frames == 0) status = mps__page_pictures(out, r, bytes / 2);
     mps__page_about(out, r);
-    fprintf(out,
-            "</main>\n<footer>Made by libmps %s. Plots: uPlot, (c) Leon Sorokin, MIT "
-            "licence.</footer>\n",
-            mps__page_string(r, "version"));
+    fputs("</main>\n<footer>Made by libmps ", out);
+    mps__html(out, mps__page_string(r, "version"));
+    fputs(". Plots: uPlot, (c) Leon Sorokin, MIT licence.</footer>\n", out);
     if (status == MPS_OK) status = mps__page_curves(out, r, bytes / 6);
     write_scripts(out);
     return status;
@@ -165,7 +165,7 @@ static mps_status cannot(const page_run *r, const char *what, const char *path)
 typedef struct page {
     part begin, film, rest;
     int64_t shown[2];
-    char note[240];
+    char note[320];
 } page;
 
 static bool write_page(FILE *out, const page_run *r, const page *p)
@@ -183,7 +183,7 @@ static mps_status save(const page_run *r, const page *p, int64_t *bytes)
     char *path = mps__page_path(r->folder, "report.html");
     char *other = mps__page_path(r->folder, "report.html.tmp");
     mps_status status = MPS_OK;
-    FILE *out = path && other ? fopen(other, "wb") : NULL;
+    FILE *out = path && other ? mps__run_create(other, "wb") : NULL;
     if (!path || !other)
         status = mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
     else if (!out)
@@ -249,6 +249,7 @@ static mps_status write_folder(const char *folder, const mps_page_config *config
     int64_t bytes = 0;
     mps_status status = mps__page_run_read(&r, folder, e);
     r.impacts = config->impacts;
+    if (status == MPS_OK) status = mps__page_peaks_read(&r);
     if (status == MPS_OK) status = make_parts(&p, &r, config);
     if (status == MPS_OK) status = save(&r, &p, &bytes);
     if (status == MPS_OK) fill_info(info, &p, bytes);
@@ -276,12 +277,5 @@ mps_status mps_page_write(const char *folder, const mps_page_config *config, mps
     mps_stats_constant first = {.struct_size = sizeof first};
     if (config->impacts && mps_stats_constant_get(config->impacts, 0, &first) != MPS_OK)
         return mps__page_fail(&e, MPS_E_ARG, "impacts: call mps_stats_config_init() first");
-    /* numbers have a point, whatever the locale of the host program says */
-    const locale_t plain = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-    if (!plain) return mps__page_fail(&e, MPS_E_NOMEM, "no memory for the page");
-    const locale_t before = uselocale(plain);
-    mps_status status = write_folder(folder, config, &e, info);
-    uselocale(before);
-    freelocale(plain);
-    return status;
+    return write_folder(folder, config, &e, info);
 }

@@ -119,10 +119,25 @@ static void write_inputs(FILE *out, const page_run *r)
     table_end(out);
 }
 
+/* Models that took part in the steps, those of plug-ins too. */
+static void row_models(FILE *out, const page_run *r)
+{
+    const json_value *list = mps__json_get(r->summary, "models");
+    if (mps__json_count(list) == 0) return;
+    fputs("<tr><th scope=\"row\">models in use</th><td>", out);
+    for (const json_value *one = list->first; one; one = one->next) {
+        const char *name = mps__json_text(one);
+        if (one != list->first) fputs(", ", out);
+        mps__html(out, name ? name : "-");
+    }
+    fputs("</td></tr>\n", out);
+}
+
 static void write_run(FILE *out, const page_run *r)
 {
     char text[TEXT_NUMBER];
     table_begin(out, "Run");
+    row_models(out, r);
     row_number(out, r, "time reached", "t_end", "s");
     row_whole(out, r, "particles of fluid", "n_fluid");
     row_whole(out, r, "particles of walls", "n_wall");
@@ -179,24 +194,33 @@ static void write_figures(FILE *out, const page_run *r)
     table_end(out);
 }
 
-static void write_columns(FILE *out, const page_run *r)
+/* @param common  those that each run has, or those of this case */
+static void write_some(FILE *out, const page_run *r, const char *title, bool common)
 {
     char name[160];
-    if (r->columns == 0) return;
-    fputs("<details><summary>All columns of probes.csv</summary>\n<table class=\"facts\"><tbody>\n",
-          out);
+    fprintf(out, "<details><summary>%s</summary>\n<table class=\"facts\"><tbody>\n", title);
     for (int32_t k = 0; k < r->columns; k++) {
         const page_column *c = &r->column[k];
+        if (mps__is_common(c->name) != common) continue;
         snprintf(name, sizeof name, c->unit[0] ? "%.100s [%.40s]" : "%.100s", c->name, c->unit);
         row(out, name, c->about);
     }
-    fputs("</tbody></table>\n", out);
+    fputs("</tbody></table></details>\n", out);
+}
+
+static void write_columns(FILE *out, const page_run *r)
+{
+    if (r->columns == 0) return;
+    fputs("<details><summary>All columns of probes.csv</summary>\n", out);
+    write_some(out, r, "Columns of this case", false);
+    write_some(out, r, "Columns of every run: energies, the tank", true);
     if (mps__page_number(r, "dim") == 2)
         fputs("<p class=\"quiet\">Forces and energies are those of 1 m of width.</p>\n", out);
     fputs("</details>\n", out);
 }
 
-/* The case as it was run, which a program can read back: in the text of the element "<\/" stands for "</". */
+/* The case as it was run, which a program can read back: in the text of the element "<\" stands
+ * for "<". */
 static void write_text(FILE *out, const page_run *r)
 {
     if (!r->text) return;
@@ -205,8 +229,7 @@ static void write_text(FILE *out, const page_run *r)
         out);
     mps__html(out, r->text);
     fputs("</pre></details>\n<script type=\"text/yaml\" id=\"case\">", out);
-    for (const char *c = r->text; *c; c++)
-        fputs(c[0] == '<' && c[1] == '/' ? "<\\" : (char[]){*c, 0}, out);
+    for (const char *c = r->text; *c; c++) fputs(*c == '<' ? "<\\" : (char[]){*c, 0}, out);
     fputs("</script>\n", out);
 }
 

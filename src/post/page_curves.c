@@ -16,6 +16,12 @@ typedef struct plot_rule {
 
 static const plot_rule probes_rule[] = {
     {"x_tank", "main", "Displacement of the tank along x", "tank", NULL},
+    {"surge", "main", "Motion of the tank: shifts", "surge", NULL},
+    {"sway", "main", "Motion of the tank: shifts", "sway", NULL},
+    {"heave", "main", "Motion of the tank: shifts", "heave", NULL},
+    {"roll", "main", "Motion of the tank: turns", "roll", NULL},
+    {"pitch", "main", "Motion of the tank: turns", "pitch", NULL},
+    {"yaw", "main", "Motion of the tank: turns", "yaw", NULL},
     {"ke", "budget", "Energy, change since the start", "kinetic", NULL},
     {"pe", "budget", "Energy, change since the start", "potential", NULL},
     {"wall_work_momentum", "budget", "Energy, change since the start", "work of the walls", NULL},
@@ -156,6 +162,14 @@ static void write_member(FILE *out, const char *key, const char *text)
     fputs(", ", out);
 }
 
+/* Displacements by the ship's names are those of the centre: more than x_tank. */
+static bool has_motion(const page_run *r)
+{
+    bool any = false;
+    for (int32_t i = 0; i < r->columns; i++) any = any || strcmp(r->column[i].type, "motion") == 0;
+    return any;
+}
+
 /* What a curve is, and in which plot. @return false: it is not shown */
 static bool describe(const curves *c, int32_t k, page_column *column, plot_rule *rule)
 {
@@ -169,8 +183,11 @@ static bool describe(const curves *c, int32_t k, page_column *column, plot_rule 
         if (strcmp(known->column, name) == 0) {
             *rule = *known;
             if (!rule->unit) rule->unit = c->table->unit[k];
-            return known->place != NULL;
+            return known->place != NULL && (strcmp(name, "x_tank") != 0 || !has_motion(c->run));
         }
+    if (strcmp(column->type, "motion") == 0)
+        rule->plot = strcmp(rule->unit, "m") == 0 ? "Displacements of the tank"
+                                                  : "Rotations of the tank";
     if (strcmp(column->type, "force") == 0 || strcmp(column->type, "moment") == 0)
         rule->place = "forces";
     return c->table == &c->run->probes;

@@ -20,6 +20,7 @@ enum {
 typedef struct axes {
     FILE *out;
     double lo, hi, least; /* pressures; smallest share */
+    bool model;           /* full scale is another one */
 } axes;
 
 static double at_x(const axes *a, double p)
@@ -80,8 +81,8 @@ static void write_axes(const axes *a)
                 "<path d=\"M%d %.1fH%d\"/><text class=\"end\" x=\"%d\" y=\"%.1f\">%s %%</text>\n",
                 LEFT, at_y(a, share), WIDTH - RIGHT, LEFT - 6, at_y(a, share) + 4,
                 mps__rounded(text, 100 * share));
-    fprintf(a->out, "<text x=\"%d\" y=\"%d\">peak [%s]</text></g>\n", (LEFT + WIDTH - RIGHT) / 2,
-            HEIGHT - 8, a->hi >= 2000 ? "kPa" : "Pa");
+    fprintf(a->out, "<text x=\"%d\" y=\"%d\">peak%s [%s]</text></g>\n", (LEFT + WIDTH - RIGHT) / 2,
+            HEIGHT - 8, a->model ? " in the model" : "", a->hi >= 2000 ? "kPa" : "Pa");
 }
 
 static bool write_band(const axes *a, const mps_impacts *impacts, const int64_t *rank, int count)
@@ -135,6 +136,7 @@ void mps__page_exceedance(FILE *out, const mps_impacts *impacts, const char *nam
     mps_impacts_info info;
     mps_impacts_info_init(&info, sizeof info);
     mps_impacts_info_get(impacts, &info);
+    a.model = info.pressure_scale != 1;
     if (info.events < 2 || !range_of(&a, impacts, info.events)) return;
     const int count = choose_ranks(info.events, rank);
     fprintf(

@@ -68,7 +68,7 @@ static mps_status frame_fill(const film *f, const vtp_frame *v, film_frame *s)
 mps_status mps__film_frame_read(const film *f, int64_t k, film_frame *out)
 {
     vtp_frame v;
-    mps_status status = mps__vtp_open(&v, f->run->errors, f->run->frame[k].path);
+    mps_status status = mps__vtp_open(&v, f->run, f->run->frame[k].path);
     if (status != MPS_OK) return status;
     if (!frame_room(out, v.points)) status = no_memory(f);
     if (status == MPS_OK) status = frame_fill(f, &v, out);

@@ -39,18 +39,49 @@ static mps_status find_impacts(const page_run *r, const mps_stats_config *config
 
 /* ---- texts ------------------------------------------------------------------------------------------------------- */
 
-static void write_fit(FILE *out, const mps_impacts *impacts, int32_t kind, const char *name,
-                      double scale)
+/* Figures of a run at model scale and at full scale are not the same. */
+static bool is_scaled(const mps_impacts_info *info)
 {
-    char a[TEXT_NUMBER], b[TEXT_NUMBER], c[TEXT_NUMBER];
+    return info->pressure_scale != 1 || info->time_scale != 1;
+}
+
+/* "3.59 kPa", or "3.59 kPa in the model, 144 kPa at full scale". */
+static void write_both(FILE *out, double value, double factor, const char *unit,
+                       const mps_impacts_info *info)
+{
+    char a[TEXT_NUMBER], b[TEXT_NUMBER];
+    if (is_scaled(info))
+        fprintf(out, "%s in the model, %s at full scale", mps__quantity(a, value, unit),
+                mps__quantity(b, factor * value, unit));
+    else
+        fputs(mps__quantity(a, value, unit), out);
+}
+
+static void write_fit(FILE *out, const mps_impacts *impacts, int32_t kind, const char *name,
+                      const mps_impacts_info *info)
+{
+    const double scale = info->pressure_scale;
     mps_fit fit;
     mps_fit_init(&fit, sizeof fit);
     if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
-    fprintf(out, "<li>%s: <b>%s</b>", name, mps__quantity(a, scale * fit.value, "Pa"));
-    if (isfinite(fit.value_band[0]))
-        fprintf(out, ", band %s to %s", mps__quantity(b, scale * fit.value_band[0], "Pa"),
-                mps__quantity(c, scale * fit.value_band[1], "Pa"));
+    fprintf(out, "<li>%s: <b>", name);
+    write_both(out, fit.value, scale, "Pa", info);
+    fputs("</b>", out);
+    if (isfinite(fit.value_band[0])) {
+        fputs("; band from ", out);
+        write_both(out, fit.value_band[0], scale, "Pa", info);
+        fputs(is_scaled(info) ? ", to " : " to ", out);
+        write_both(out, fit.value_band[1], scale, "Pa", info);
+    }
     fputs("</li>\n", out);
+}
+
+/* The end of a record with as many events as a fit needs, at this rate, with two digits [s]. */
+static double wanted_end(const mps_impacts_info *info, const mps_stats_config *c)
+{
+    const double end = info->t_first + c->least_events / info->rate,
+                 digit = pow(10, floor(log10(end)) - 1);
+    return digit * ceil(end / digit);
 }
 
 static void write_value(FILE *out, const mps_impacts *impacts, const mps_impacts_info *info,
@@ -63,16 +94,22 @@ static void write_value(FILE *out, const mps_impacts *impacts, const mps_impacts
                 "%d events, there %s %lld.",
                 (int)c->least_events, info->events == 1 ? "is" : "are", (long long)info->events);
         if (info->events > 1)
-            fprintf(out, " At this rate a record of %s has so many.",
-                    mps__duration(exposure, c->least_events / info->rate));
+            fprintf(out,
+                    " At this rate a record of %s%s has so many: <code>mps resume</code> with the "
+                    "folder and <code>--set run.until='%.9g s'</code> extends the run.",
+                    mps__duration(exposure, c->least_events / info->rate),
+                    is_scaled(info) ? " of the model" : "", wanted_end(info, c));
         fputs("</p>\n", out);
         return;
     }
-    fprintf(out,
-            "<p>Exceeded once in %s (%s events), <b>for screening</b>, not for design:</p>\n<ul>\n",
-            mps__duration(exposure, c->exposure), mps__rounded(events, info->exposure_events));
-    write_fit(out, impacts, MPS_FIT_WEIBULL, "Weibull", info->pressure_scale);
-    write_fit(out, impacts, MPS_FIT_PARETO, "generalised Pareto", info->pressure_scale);
+    fprintf(out, "<p>Exceeded once in %s", mps__duration(exposure, c->exposure));
+    if (is_scaled(info))
+        fprintf(out, " at full scale, which is %s in the model",
+                mps__duration(exposure, info->exposure));
+    fprintf(out, " (%s events), <b>for screening</b>, not for design:</p>\n<ul>\n",
+            mps__rounded(events, info->exposure_events));
+    write_fit(out, impacts, MPS_FIT_WEIBULL, "Weibull", info);
+    write_fit(out, impacts, MPS_FIT_PARETO, "generalised Pareto", info);
     fputs("</ul>\n", out);
     if (info->long_exposure)
         fprintf(out,
@@ -85,11 +122,14 @@ static void write_value(FILE *out, const mps_impacts *impacts, const mps_impacts
               out);
 }
 
-static void write_row(FILE *out, int64_t rank, const mps_impact *e)
+/* @param scale  of pressures; NAN: the run is at full scale */
+static void write_row(FILE *out, int64_t rank, const mps_impact *e, double scale)
 {
     char text[TEXT_NUMBER];
     fprintf(out, "<tr><td>%lld</td><td class=\"number\">%s</td>", (long long)rank + 1,
             mps__quantity(text, e->peak, "Pa"));
+    if (isfinite(scale))
+        fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, scale * e->peak, "Pa"));
     fprintf(
         out,
         "<td class=\"number\"><button type=\"button\" class=\"moment\" data-time=\"%.9g\">%.4g s"
@@ -102,25 +142,28 @@ static void write_row(FILE *out, int64_t rank, const mps_impact *e)
     fprintf(out, "<td class=\"number\">%s</td></tr>\n", mps__quantity(text, e->impulse, "Pa s"));
 }
 
-static void write_highest(FILE *out, const sensor *s)
+static void write_highest(FILE *out, const sensor *s, const mps_impacts_info *info)
 {
+    const double scale = is_scaled(info) ? info->pressure_scale : NAN;
     mps_impact e;
     mps_impact_init(&e, sizeof e);
     fputs("<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Highest peaks of ",
           out);
     mps__html(out, s->column->name);
-    fputs("\"><table><thead><tr><th>rank</th><th>peak</th><th>time</th><th>rise</th><th>decay</th>"
-          "<th>duration</th><th>impulse</th></tr></thead><tbody>\n",
+    fputs("\"><table><thead><tr><th>rank</th><th>peak</th>", out);
+    if (isfinite(scale)) fputs("<th>at full scale</th>", out);
+    fputs("<th>time</th><th>rise</th><th>decay</th><th>duration</th><th>impulse</th></tr></thead>"
+          "<tbody>\n",
           out);
     for (int64_t rank = 0; rank < HIGHEST; rank++)
-        if (mps_impacts_highest(s->impacts, rank, &e) == MPS_OK) write_row(out, rank, &e);
+        if (mps_impacts_highest(s->impacts, rank, &e) == MPS_OK) write_row(out, rank, &e, scale);
     fputs("</tbody></table></div>\n", out);
 }
 
 static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, bool open,
                          bool plot)
 {
-    char high[TEXT_NUMBER], u[TEXT_NUMBER], w[TEXT_NUMBER], rate[TEXT_NUMBER];
+    char u[TEXT_NUMBER], w[TEXT_NUMBER], rate[TEXT_NUMBER];
     mps_impacts_info info;
     mps_impacts_info_init(&info, sizeof info);
     mps_impacts_info_get(s->impacts, &info);
@@ -131,8 +174,16 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
         return;
     }
     fprintf(out, ": %lld event%s", (long long)info.events, info.events == 1 ? "" : "s");
-    if (info.events > 0) fprintf(out, ", highest %s", mps__quantity(high, s->highest, "Pa"));
+    if (info.events > 0) {
+        fputs(", highest ", out);
+        write_both(out, s->highest, info.pressure_scale, "Pa", &info);
+    }
     fputs("</summary>\n<div class=\"two\"><div>\n", out);
+    if (is_scaled(&info))
+        fprintf(out,
+                "<p>The run is a model: at full scale pressures are %s times and times %s times as "
+                "large. All that does not say 'at full scale' is of the model.</p>\n",
+                mps__rounded(u, info.pressure_scale), mps__rounded(w, info.time_scale));
     fprintf(out, "<p>An event begins above %s and ends after %s below it. ",
             mps__quantity(u, info.threshold, "Pa"), mps__quantity(w, info.window, "s"));
     if (info.events >= FEW)
@@ -146,7 +197,7 @@ static void write_sensor(FILE *out, const sensor *s, const mps_stats_config *c, 
     if (info.missing > 0)
         fprintf(out, "<p>%lld samples are not known.</p>\n", (long long)info.missing);
     write_value(out, s->impacts, &info, c);
-    write_highest(out, s);
+    write_highest(out, s, &info);
     fputs("</div>\n", out);
     if (plot) mps__page_exceedance(out, s->impacts, s->column->name);
     fputs("</div></details>\n", out);

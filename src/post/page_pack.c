@@ -22,15 +22,16 @@ typedef struct plan {
     int32_t bits;
     bool coarse;   /* values in steps of four codes */
     int64_t every; /* particle */
-    int64_t step;  /* frames */
+    int64_t step;  /* frames; those about peaks are all shown */
+    bool peaks;    /* they are */
 } plan;
 
 /* A film that is being packed. */
 typedef struct packing {
     const film *film;
     plan plan;
-    int64_t shown;  /* particles */
-    int64_t frames; /* of the film */
+    int64_t shown;         /* particles */
+    int64_t frames, *pick; /* of the film: [frames] numbers in the run */
     int64_t
         block; /* frames in a block, but for the first, which has one: the first picture comes at once */
     double quantum; /* [m] */
@@ -100,9 +101,9 @@ static mps_status pack_frames(packing *p)
     mps_status status = MPS_OK;
     int64_t in_block = 0;
     for (int64_t k = 0; status == MPS_OK && k < p->frames && p->bytes <= p->most; k++) {
-        status = mps__film_frame_read(p->film, k * p->plan.step, &p->frame);
+        status = mps__film_frame_read(p->film, p->pick[k], &p->frame);
         if (status != MPS_OK) break;
-        quantise(p, &p->film->pose[k * p->plan.step]);
+        quantise(p, &p->film->pose[p->pick[k]]);
         if (!mps__codec_frame(&p->codec, p->q, p->value, &bytes)) status = no_memory(p->film);
         p->done = k + 1;
         if (++in_block < (k == 0 ? 1 : p->block) && p->done < p->frames) continue;
@@ -229,7 +230,7 @@ static void write_poses(FILE *out, const packing *p)
 {
     fputs("\"poses\": [", out);
     for (int64_t k = 0; p->film->tank_moves && k < p->frames; k++) {
-        const film_pose *pose = &p->film->pose[k * p->plan.step];
+        const film_pose *pose = &p->film->pose[p->pick[k]];
         fputs(k ? ",\n[" : "\n[", out);
         for (int i = 0; i < 9; i++) fprintf(out, "%.6g, ", pose->turn[i]);
         fprintf(out, "%.6g, %.6g, %.6g]", pose->shift[0], pose->shift[1], pose->shift[2]);
@@ -249,6 +250,20 @@ static void write_edges(FILE *out, const page_run *run)
     fputs("],\n", out);
 }
 
+/* Direction of the bow in the tank, of a ship in 3-D. */
+static void write_bow(FILE *out, const film *f)
+{
+    static const struct {
+        const char *name, *way;
+    } ways[] = {{"x", "[1, 0, 0]"}, {"z", "[0, 0, 1]"}, {"-x", "[-1, 0, 0]"}, {"-z", "[0, 0, -1]"}};
+    const char *bow = mps__page_input(f->run, "motion.forward");
+    if (!bow) bow = mps__page_input(f->run, "body.forward");
+    if (!bow && (mps__page_input(f->run, "motion.axes") || mps__page_input(f->run, "body.axes")))
+        bow = "x"; /* the default of the key */
+    for (size_t k = 0; bow && f->dim == 3 && k < sizeof ways / sizeof *ways; k++)
+        if (strcmp(ways[k].name, bow) == 0) fprintf(out, "\"bow\": %s,\n", ways[k].way);
+}
+
 static void write_head(const packing *p)
 {
     const film *f = p->film;
@@ -266,15 +281,33 @@ static void write_head(const packing *p)
     write_scale(out, "speed", &f->speed);
     write_maps(out);
     write_edges(out, f->run);
+    write_bow(out, f);
+    if (f->tank_moves || mps__json_true(mps__json_get(f->run->summary, "tank_frame")))
+        fprintf(out, "\"speed_in\": \"%s\",\n",
+                mps__json_true(mps__json_get(f->run->summary, "tank_frame")) ? "the tank"
+                                                                             : "the lab");
     fputs("\"t\": [", out);
     for (int64_t k = 0; k < p->frames; k++)
-        fprintf(out, "%s%.9g", k ? ", " : "", f->run->frame[k * p->plan.step].t);
+        fprintf(out, "%s%.9g", k ? ", " : "", f->run->frame[p->pick[k]].t);
     fputs("],\n", out);
     write_poses(out, p);
     fputs("</script>\n", out);
 }
 
 /* ---- plans ------------------------------------------------------------------------------------------------------- */
+
+/* Numbers of the frames that a plan shows. @param pick  NULL: only count them */
+static int64_t pick_frames(const film *f, const plan *how, int64_t *pick)
+{
+    int64_t count = 0, others = 0;
+    for (int64_t k = 0; k < f->run->frames; k++) {
+        const bool peak = f->run->frame[k].peak;
+        if (peak ? !how->peaks : others++ % how->step != 0) continue;
+        if (pick) pick[count] = k;
+        count++;
+    }
+    return count;
+}
 
 static mps_status packing_create(packing *p, const film *f, const plan *how, FILE *out)
 {
@@ -283,7 +316,9 @@ static mps_status packing_create(packing *p, const film *f, const plan *how, FIL
     for (int32_t d = 0; d < f->dim; d++) extent = fmax(extent, f->hi[d] - f->lo[d]);
     p->quantum = extent > 0 ? extent / ((1 << how->bits) - 1) : 1;
     p->shown = (f->moving.count + how->every - 1) / how->every;
-    p->frames = (f->run->frames + how->step - 1) / how->step;
+    p->pick = calloc((size_t)f->run->frames + 1, sizeof *p->pick);
+    if (!p->pick) return no_memory(f);
+    p->frames = pick_frames(f, how, p->pick);
     p->block = (p->frames + BLOCKS - 1) / BLOCKS;
     p->q = calloc((size_t)(f->dim * p->shown + 1), sizeof *p->q);
     p->values = VALUES + (f->pockets > 0);
@@ -297,6 +332,7 @@ static void packing_free(packing *p)
 {
     mps__codec_free(&p->codec);
     mps__film_frame_free(&p->frame);
+    free(p->pick);
     free(p->q);
     free(p->value);
 }
@@ -349,37 +385,54 @@ static bool less(const film *f, plan *how, double share)
         return true;
     }
     how->step *= 2;
-    return f->run->frames / how->step >= 2;
+    if (how->step > 2) how->peaks = false;
+    return pick_frames(f, how, NULL) >= 2;
 }
 
-static void describe(const film *f, const plan *how, int64_t first_step, char *note, size_t size)
+static void describe(const film *f, const plan *how, const plan *first, char *note, size_t size)
 {
+    int64_t all = pick_frames(f, &(plan){.step = 1}, NULL);
+    const int64_t peaks = f->run->frames - all;
     size_t used = 0;
     note[0] = '\0';
-    if (how->bits != COARSE && how->step == first_step) return;
-    used = (size_t)snprintf(note, size, "To keep the page small, ");
+    if (how->peaks && peaks > 0)
+        used = (size_t)snprintf(
+            note, size, "About the highest peaks the film has %lld frames more.", (long long)peaks);
+    if (how->bits != COARSE && how->step == first->step && how->peaks == first->peaks) return;
+    used += (size_t)snprintf(note + used, size - used, "%sTo keep the page small, ",
+                             used > 0 ? " " : "");
     if (how->bits == COARSE)
-        used += (size_t)snprintf(note + used, size - used,
-                                 "places are rounded to 1/%d of the picture's width and colours to "
-                                 "64 steps",
-                                 1 << COARSE);
+        used += (size_t)snprintf(
+            note + used, size - used,
+            "places are rounded to 1/%d of the width of the film and colours to "
+            "64 steps",
+            1 << COARSE);
     if (how->every > 1)
         used += (size_t)snprintf(note + used, size - used,
                                  "; one particle of %lld is shown, drawn larger",
                                  (long long)how->every);
-    if (how->step > first_step)
+    if (how->step > first->step)
         used += (size_t)snprintf(note + used, size - used, "; one frame of %lld is shown",
                                  (long long)how->step);
     snprintf(note + used, size - used, ". The folder has all %lld particles and %lld frames.",
              (long long)f->moving.count, (long long)f->run->frames);
 }
 
+/* @param frames  largest number of frames; 0: all */
+static plan first_plan(const film *f, int32_t frames)
+{
+    plan how = {.bits = FINE, .every = 1, .step = 1, .peaks = true};
+    const int64_t others = pick_frames(f, &(plan){.step = 1}, NULL);
+    if (frames > 0) how.step = (others + frames - 1) / frames;
+    if (frames > 0 && pick_frames(f, &how, NULL) > frames) how.peaks = false;
+    return how;
+}
+
 mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *out, char *note,
                            size_t note_size, int64_t shown[2])
 {
-    plan how = {.bits = FINE, .every = 1, .step = 1};
-    if (frames > 0) how.step = (f->run->frames + frames - 1) / frames;
-    const int64_t first_step = how.step;
+    const plan first = first_plan(f, frames);
+    plan how = first;
     double share = 2;
     bool more = true;
     mps_status status = MPS_OK;
@@ -391,12 +444,12 @@ mps_status mps__film_write(const film *f, int64_t bytes, int32_t frames, FILE *o
         if (status == MPS_OK && share > 1) more = less(f, &how, share);
     }
     if (status == MPS_OK && share <= 1) {
-        shown[0] = (f->run->frames + how.step - 1) / how.step;
+        shown[0] = pick_frames(f, &how, NULL);
         shown[1] = (f->moving.count + how.every - 1) / how.every;
     } else if (status == MPS_OK)
         status = empty(f, out);
     if (shown[0] > 0)
-        describe(f, &how, first_step, note, note_size);
+        describe(f, &how, &first, note, note_size);
     else if (status == MPS_OK)
         snprintf(note, note_size, "There is no film: its limit, %lld bytes, is too low.",
                  (long long)bytes);

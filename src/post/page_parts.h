@@ -7,6 +7,8 @@
 
 /* Title of the run. */
 const char *mps__page_title(const page_run *r);
+/* The run goes on, or was killed: its summary is of before its end. */
+bool mps__page_is_unfinished(const page_run *r);
 /* Title and the numbers of the run in a line. */
 void mps__page_head(FILE *out, const page_run *r);
 /* Lights: what is good, what is not, and what to do. */
@@ -25,6 +27,8 @@ void mps__page_extremes(FILE *out, const page_run *r, const char *caption,
 /* Events of the sensors, the distribution of their peaks, and the highest ones; plots as long as all of it has less than
  * `bytes`. */
 mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes);
+/* Figures of the columns that have known values. */
+mps_status mps__page_comparison(FILE *out, const page_run *r);
 /* Curves of forces and moments with their extremes. */
 void mps__page_forces(FILE *out, const page_run *r);
 /* Where the energy went, in words. */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The folder of a run, read back. */
 #include "page_read.h"
+#include "run_file.h"
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -39,16 +40,27 @@ static long size_of(FILE *file)
     return fseek(file, 0, SEEK_SET) == 0 ? size : -1;
 }
 
-mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char **out, size_t *size)
+mps_status mps__page_open(const page_run *r, const char *path, FILE **out)
 {
+    const char *why;
+    *out = mps__run_open(r->folder, path, &why);
+    if (*out) return MPS_OK;
+    if (!why && errno == ENOENT) return MPS_E_NAME;
+    if (!why && errno == ENOMEM) return no_memory(r->errors);
+    return mps__page_fail(r->errors, MPS_E_IO, "cannot open '%s': %s", path,
+                          why ? why : strerror(errno));
+}
+
+mps_status mps__page_file(const page_run *r, const char *path, int64_t most, char **out,
+                          size_t *size)
+{
+    page_errors *e = r->errors;
+    FILE *file;
     *out = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file && errno == ENOENT) return MPS_E_NAME;
-    if (!file && errno == ENOMEM) return no_memory(e);
-    if (!file) return mps__page_fail(e, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
+    mps_status status = mps__page_open(r, path, &file);
+    if (status != MPS_OK) return status;
     setvbuf(file, NULL, _IONBF, 0); /* it is read at once */
     const long length = size_of(file);
-    mps_status status = MPS_OK;
     if (length < 0)
         status = mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
     else if (length > most)
@@ -140,7 +152,7 @@ mps_status mps__page_summary_read(page_run *r)
     char *path = mps__page_path(r->folder, "summary.json"), *text = NULL;
     size_t size = 0;
     if (!path) return no_memory(r->errors);
-    mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, &size);
+    mps_status status = mps__page_file(r, path, SERIES_MOST, &text, &size);
     json_error error;
     if (status == MPS_OK && (!text || strlen(text) != size))
         status = mps__page_fail(r->errors, MPS_E_IO, "'%s' is no text: it has a byte 0", path);
@@ -187,13 +199,14 @@ static char *attribute(char *tag, const char *name, char **end)
     return *end ? value : NULL;
 }
 
-static mps_status add_frame(page_run *r, char *tag, const char *path)
+/* @param first  frame of this series */
+static mps_status add_frame(page_run *r, char *tag, const char *path, int64_t first)
 {
     char *end = NULL, *number_end = NULL, *t = attribute(tag, "timestep=\"", &end);
     char *file = t ? attribute(end + 1, "file=\"", &end) : NULL;
     if (!t || !file || r->frames == FRAMES_MOST)
         return mps__page_fail(r->errors, MPS_E_IO, "'%s': frame %lld has no time or no file", path,
-                              (long long)r->frames);
+                              (long long)(r->frames - first));
     unescape(file);
     page_stamp *more = realloc(r->frame, (size_t)(r->frames + 1) * sizeof *more);
     if (!more) return no_memory(r->errors);
@@ -203,28 +216,53 @@ static mps_status add_frame(page_run *r, char *tag, const char *path)
                       .path = mps__page_path(file[0] == '/' ? "" : r->folder, file)};
     if (!s->path) return no_memory(r->errors);
     r->frames++;
-    if (number_end == t || !isfinite(s->t) || (r->frames > 1 && s->t <= s[-1].t))
+    if (number_end == t || !isfinite(s->t) || (r->frames > first + 1 && s->t <= s[-1].t))
         return mps__page_fail(r->errors, MPS_E_IO, "'%s': times of frames do not increase at '%s'",
                               path, t);
     return MPS_OK;
 }
 
-static mps_status read_series(page_run *r)
+static mps_status read_series(page_run *r, const char *name)
 {
-    char *path = mps__page_path(r->folder, "frames.pvd"), *text = NULL;
+    char *path = mps__page_path(r->folder, name), *text = NULL;
+    const int64_t first = r->frames;
     if (!path) return no_memory(r->errors);
-    mps_status status = mps__page_file(r->errors, path, SERIES_MOST, &text, NULL);
+    mps_status status = mps__page_file(r, path, SERIES_MOST, &text, NULL);
     char *tag = text ? strstr(text, "<DataSet ") : NULL;
     while (status == MPS_OK && tag) {
         char *end = strchr(tag, '>');
         if (!end) break; /* half a tag */
         *end = '\0';
-        status = add_frame(r, tag, path);
+        status = add_frame(r, tag, path, first);
         tag = strstr(end + 1, "<DataSet ");
     }
     free(text);
     free(path);
     return status == MPS_E_NAME ? MPS_OK : status;
+}
+
+/* The frame of all frames before the one about a peak at the same time, which is left out then. */
+static int compare_stamps(const void *a, const void *b)
+{
+    const page_stamp *x = a, *y = b;
+    return x->t != y->t ? (x->t > y->t) - (x->t < y->t) : x->peak - y->peak;
+}
+
+mps_status mps__page_peaks_read(page_run *r)
+{
+    const int64_t others = r->frames;
+    int64_t kept = 0;
+    if (others == 0) return MPS_OK;
+    const mps_status status = read_series(r, "peaks.pvd");
+    for (int64_t k = others; k < r->frames; k++) r->frame[k].peak = true;
+    qsort(r->frame, (size_t)r->frames, sizeof *r->frame, compare_stamps);
+    for (int64_t k = 0; k < r->frames; k++)
+        if (k > 0 && r->frame[k].t == r->frame[kept - 1].t)
+            free(r->frame[k].path);
+        else
+            r->frame[kept++] = r->frame[k];
+    r->frames = kept;
+    return status;
 }
 
 /* ---- all of it --------------------------------------------------------------------------------------------------- */
@@ -233,7 +271,7 @@ static mps_status read_table(page_run *r, const char *name, bool wanted, page_ta
 {
     char *path = mps__page_path(r->folder, name);
     if (!path) return no_memory(r->errors);
-    mps_status status = mps__page_table_read(r->errors, path, out);
+    mps_status status = mps__page_table_read(r, path, out);
     if (status == MPS_E_NAME)
         status = wanted ? mps__page_fail(r->errors, MPS_E_IO, "there is no '%s'", path) : MPS_OK;
     free(path);
@@ -244,9 +282,18 @@ static mps_status read_case(page_run *r)
 {
     char *path = mps__page_path(r->folder, "case.yaml");
     if (!path) return no_memory(r->errors);
-    mps_status status = mps__page_file(r->errors, path, CASE_MOST, &r->text, NULL);
+    mps_status status = mps__page_file(r, path, CASE_MOST, &r->text, NULL);
     free(path);
     return status == MPS_E_NAME ? MPS_OK : status;
+}
+
+/* The summary of a run that is not finished is older than its rows. */
+static void take_last_time(page_run *r)
+{
+    if (strcmp(mps__page_string(r, "status"), "unfinished") != 0 || r->probes.rows == 0) return;
+    for (json_value *one = r->summary->first; one; one = one->next)
+        if (one->type == JSON_NUMBER && strcmp(one->key, "t_end") == 0)
+            one->number = fmax(one->number, mps__page_table_last(&r->probes, 0));
 }
 
 mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
@@ -255,13 +302,13 @@ mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
     mps_status status = mps__page_summary_read(r);
     if (status == MPS_E_NAME)
         status = mps__page_fail(
-            e, MPS_E_IO, "there is no '%s/summary.json': a page needs the folder of a finished run",
-            folder);
+            e, MPS_E_IO, "there is no '%s/summary.json': a page needs the folder of a run", folder);
     if (status == MPS_OK) status = read_table(r, "probes.csv", true, &r->probes);
+    if (status == MPS_OK) take_last_time(r);
     if (status == MPS_OK) status = read_table(r, "steps.csv", false, &r->steps);
     if (status == MPS_OK) status = read_table(r, "momentum.csv", false, &r->momentum);
     if (status == MPS_OK) status = read_columns(r);
-    if (status == MPS_OK) status = read_series(r);
+    if (status == MPS_OK) status = read_series(r, "frames.pvd");
     if (status == MPS_OK) status = read_case(r);
     return status;
 }

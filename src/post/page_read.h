@@ -35,6 +35,7 @@ typedef struct page_column {
 typedef struct page_stamp {
     double t;
     char *path;
+    bool peak; /* of peaks.pvd */
 } page_stamp;
 
 typedef struct page_run {
@@ -56,10 +57,14 @@ mps_status mps__page_fail(page_errors *e, mps_status status, const char *format,
     __attribute__((format(printf, 3, 4)));
 /* "<folder>/<name>"; NULL without memory. The caller frees it. */
 char *mps__page_path(const char *folder, const char *name);
+/* Open a file of the folder of a run. MPS_E_NAME without a text: there is no such file;
+ * MPS_E_IO: for instance a link out of the folder. */
+mps_status mps__page_open(const page_run *r, const char *path, FILE **out);
 /* A whole file with a 0 behind it. @param size  of the file, or NULL. @param most  largest size. MPS_E_NAME: there is no such file. */
-mps_status mps__page_file(page_errors *e, const char *path, int64_t most, char **out, size_t *size);
+mps_status mps__page_file(const page_run *r, const char *path, int64_t most, char **out,
+                          size_t *size);
 /* Read a table; MPS_E_NAME without a text: there is no such file. A last row that is not complete is left out. */
-mps_status mps__page_table_read(page_errors *e, const char *path, page_table *out);
+mps_status mps__page_table_read(const page_run *r, const char *path, page_table *out);
 void mps__page_table_free(page_table *t);
 /* Column by name, -1: none. */
 int32_t mps__page_table_find(const page_table *t, const char *name);
@@ -70,7 +75,12 @@ double mps__page_table_last(const page_table *t, int32_t column);
 mps_status mps__page_summary_read(page_run *r);
 /* Read all of the folder but the frames themselves. */
 mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e);
+/* Add the frames about peaks to the others, in the order of time. */
+mps_status mps__page_peaks_read(page_run *r);
 void mps__page_run_free(page_run *r);
+
+/* A column that each run has: an energy, the place of the tank. */
+bool mps__is_common(const char *name);
 
 /* Members of summary.json; what is missing or of another kind is NAN, "". */
 double mps__page_number(const page_run *r, const char *key);

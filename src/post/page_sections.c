@@ -6,6 +6,23 @@
 #include <stdlib.h>
 #include <string.h>
 
+bool mps__page_is_unfinished(const page_run *r)
+{
+    return strcmp(mps__page_string(r, "status"), "unfinished") == 0;
+}
+
+/* Above all else, because figures and checks are those of a part of the run. */
+static void write_unfinished(FILE *out, const page_run *r)
+{
+    char a[TEXT_NUMBER], b[TEXT_NUMBER];
+    const double until = mps__page_number(r, "until");
+    if (!mps__page_is_unfinished(r)) return;
+    fprintf(out, "<p class=\"warning\">This run is not finished: it has come to t = %s",
+            mps__quantity(a, mps__page_number(r, "t_end"), "s"));
+    if (isfinite(until)) fprintf(out, " of %s", mps__quantity(b, until, "s"));
+    fputs(". All figures are of this part; mps report makes the page again.</p>\n", out);
+}
+
 void mps__page_head(FILE *out, const page_run *r)
 {
     char a[TEXT_NUMBER], b[TEXT_NUMBER], c[TEXT_NUMBER], d[TEXT_NUMBER];
@@ -20,9 +37,9 @@ void mps__page_head(FILE *out, const page_run *r)
             mps__whole(b, isfinite(fluid) ? (int64_t)fluid : 0),
             mps__quantity(c, mps__page_number(r, "dp"), "m"),
             mps__duration(d, mps__page_number(r, "wall_s")));
-    fputs("</p></div>\n<button id=\"theme\" type=\"button\" "
-          "aria-pressed=\"false\">Dark</button></header>\n",
-          out);
+    fputs("</p>", out);
+    write_unfinished(out, r);
+    fputs("</div>\n<button id=\"theme\" type=\"button\">Dark</button></header>\n", out);
 }
 
 /* ---- film and curves --------------------------------------------------------------------------------------------- */
@@ -221,7 +238,7 @@ static mps_status write_picture(FILE *out, const page_run *r, const char *name, 
     char *path = mps__page_path(r->folder, name), *data = NULL;
     size_t size = 0;
     if (!path) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    mps_status status = mps__page_file(r->errors, path, 64 << 20, &data, &size);
+    mps_status status = mps__page_file(r, path, 64 << 20, &data, &size);
     const int64_t needed = (int64_t)size * 4 / 3 + 300;
     free(path);
     if (status != MPS_OK || needed > *bytes) {

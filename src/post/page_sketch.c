@@ -244,9 +244,9 @@ static void write_extremes(FILE *out, const page_run *r, const page_column *c)
     for (int k = 0; k < 2; k++) {
         const double *v = row[k] >= 0 ? t->value + row[k] * t->columns : NULL;
         const double value = v ? v[c->place] : NAN;
-        fprintf(out, "<td class=\"number\">%s</td>",
-                mps__quantity(text, fabs(value) < 1e-6 * most ? 0 : value, c->unit));
-        fprintf(out, "<td class=\"number\">%s</td>", mps__quantity(text, v ? v[0] : NAN, "s"));
+        fputs("<td class=\"number\">", out);
+        mps__html(out, mps__quantity(text, fabs(value) < 1e-6 * most ? 0 : value, c->unit));
+        fprintf(out, "</td><td class=\"number\">%s</td>", mps__quantity(text, v ? v[0] : NAN, "s"));
     }
 }
 

@@ -1,134 +1,53 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tables of a run: a line "t[s],P1[Pa],..." and rows of numbers. */
+#include "csv.h"
 #include "page_read.h"
-#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { TABLE_COLUMNS = 4096 };
 
-static mps_status no_memory(page_errors *e)
+static mps_status status_of(page_errors *e, const mps__csv *t, mps__csv_error error)
 {
-    return mps__page_fail(e, MPS_E_NOMEM, "no memory for the page");
+    if (error == CSV_OK) return MPS_OK;
+    if (error == CSV_MISSING) return MPS_E_NAME;
+    if (error == CSV_MEMORY) return mps__page_fail(e, MPS_E_NOMEM, "no memory for the page");
+    return mps__page_fail(e, MPS_E_IO, "%s", t->why);
 }
 
-/* "P1[Pa]" becomes "P1", "Pa". */
-static mps_status take_name(page_errors *e, page_table *t, const char *text, size_t length)
+/* Columns become rows, as pages use them. */
+static mps_status take_rows(page_errors *e, page_table *out, mps__csv *t)
 {
-    const char *open = memchr(text, '[', length);
-    const size_t name = open ? (size_t)(open - text) : length;
-    const size_t unit = open && text[length - 1] == ']' ? length - name - 2 : 0;
-    t->name[t->columns] = strndup(text, name);
-    t->unit[t->columns] = strndup(unit ? open + 1 : "", unit);
-    if (t->name[t->columns] && t->unit[t->columns]) {
-        t->columns++;
-        return MPS_OK;
+    const size_t columns = (size_t)t->columns, rows = (size_t)t->rows;
+    out->value = calloc(rows > 0 ? rows : 1, columns * sizeof *out->value);
+    if (!out->value) return status_of(e, t, CSV_MEMORY);
+    for (size_t i = 0; i < rows; i++) {
+        for (size_t k = 0; k < columns; k++) out->value[i * columns + k] = t->value[k][i];
+        if (!isfinite(t->value[0][i]))
+            return mps__page_fail(e, MPS_E_IO, "%s:%lld: the time is %g", t->path,
+                                  (long long)t->line[i], t->value[0][i]);
     }
-    free(t->name[t->columns]);
-    free(t->unit[t->columns]);
-    return no_memory(e);
+    out->columns = t->columns;
+    out->rows = t->rows;
+    out->name = t->name;
+    out->unit = t->unit;
+    t->name = NULL;
+    t->unit = NULL;
+    return MPS_OK;
 }
 
-static mps_status read_header(page_errors *e, const char *path, page_table *t, const char *line)
+mps_status mps__page_table_read(const page_run *r, const char *path, page_table *out)
 {
-    int32_t count = 1;
-    for (const char *c = line; *c; c++) count += *c == ',';
-    if (count > TABLE_COLUMNS)
-        return mps__page_fail(e, MPS_E_IO, "'%s' has %d columns, at most %d are read", path,
-                              (int)count, TABLE_COLUMNS);
-    t->name = calloc((size_t)count, sizeof *t->name);
-    t->unit = calloc((size_t)count, sizeof *t->unit);
-    if (!t->name || !t->unit) return no_memory(e);
-    mps_status status = MPS_OK;
-    for (int32_t k = 0; status == MPS_OK && k < count; k++) {
-        const size_t length = strcspn(line, ",\r\n");
-        status = take_name(e, t, line, length);
-        line += length + (line[length] == ',');
-    }
-    return status;
-}
-
-static bool grow(page_table *t, int64_t *capacity)
-{
-    if (t->rows < *capacity) return true;
-    const int64_t wanted = *capacity ? 2 * *capacity : 1024;
-    double *more = realloc(t->value, (size_t)wanted * (size_t)t->columns * sizeof *more);
-    if (!more) return false;
-    t->value = more;
-    *capacity = wanted;
-    return true;
-}
-
-/* A row without an end was cut off by the end of its program. @return false: it is not a row */
-static bool read_row(const char *line, int32_t columns, double *row)
-{
-    for (int32_t i = 0; i < columns; i++) {
-        char *end;
-        row[i] = strtod(line, &end);
-        if (end == line) return false;
-        if (i + 1 < columns ? *end != ',' : *end != '\n' && *end != '\r') return false;
-        line = end + 1;
-    }
-    return isfinite(row[0]);
-}
-
-/* Why there is no further line: no memory, an error of the file, or its end, which is MPS_OK. */
-static mps_status no_line(page_errors *e, const char *path, FILE *file)
-{
-    if (errno == ENOMEM) return no_memory(e);
-    if (!ferror(file)) return MPS_OK;
-    return mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
-}
-
-static mps_status read_rows(page_errors *e, const char *path, page_table *t, FILE *file)
-{
-    char *line = NULL;
-    size_t size = 0;
-    int64_t capacity = 0;
-    bool cut = false;
-    mps_status status = MPS_OK;
-    errno = 0;
-    while (status == MPS_OK && getline(&line, &size, file) > 0) {
-        if (cut)
-            status = mps__page_fail(e, MPS_E_IO, "'%s', line %lld: %d numbers are wanted", path,
-                                    (long long)t->rows + 2, (int)t->columns);
-        else if (!grow(t, &capacity))
-            status = no_memory(e);
-        else if (read_row(line, t->columns, t->value + t->rows * t->columns))
-            t->rows++;
-        else
-            cut = true;
-    }
-    if (status == MPS_OK) status = no_line(e, path, file);
-    free(line);
-    return status;
-}
-
-static mps_status read_open(page_errors *e, const char *path, page_table *t, FILE *file)
-{
-    char *line = NULL;
-    size_t size = 0;
-    mps_status status = MPS_OK;
-    errno = 0;
-    if (getline(&line, &size, file) <= 0) {
-        status = no_line(e, path, file);
-        if (status == MPS_OK) status = mps__page_fail(e, MPS_E_IO, "'%s' is empty", path);
-    }
-    if (status == MPS_OK) status = read_header(e, path, t, line);
-    if (status == MPS_OK) status = read_rows(e, path, t, file);
-    free(line);
-    return status;
-}
-
-mps_status mps__page_table_read(page_errors *e, const char *path, page_table *out)
-{
+    mps__csv t;
     *out = (page_table){0};
-    FILE *file = fopen(path, "r");
-    if (!file && errno == ENOENT) return MPS_E_NAME;
-    if (!file) return mps__page_fail(e, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
-    mps_status status = read_open(e, path, out, file);
-    fclose(file);
+    mps_status status = status_of(r->errors, &t, mps__csv_open_in(&t, r->folder, path, CSV_OWN));
+    if (status == MPS_OK && t.columns > TABLE_COLUMNS)
+        status = mps__page_fail(r->errors, MPS_E_IO, "'%s' has %d columns, at most %d are read",
+                                path, (int)t.columns, TABLE_COLUMNS);
+    if (status == MPS_OK) status = status_of(r->errors, &t, mps__csv_read(&t));
+    if (status == MPS_OK) status = take_rows(r->errors, out, &t);
+    mps__csv_free(&t);
     if (status != MPS_OK) mps__page_table_free(out);
     return status;
 }
@@ -143,6 +62,17 @@ void mps__page_table_free(page_table *t)
     free(t->unit);
     free(t->value);
     *t = (page_table){0};
+}
+
+bool mps__is_common(const char *name)
+{
+    static const char *const names[] = {"ke",       "x_tank",  "pe",        "wall_work_momentum",
+                                        "viscous",  "plugins", "collision", "wall_work_probes",
+                                        "shift",    "added",   "numerical", "volume_error",
+                                        "friction", "layers"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+        if (strcmp(name, names[k]) == 0) return true;
+    return false;
 }
 
 int32_t mps__page_table_find(const page_table *t, const char *name)

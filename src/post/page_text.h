@@ -9,7 +9,11 @@
 
 enum { TEXT_NUMBER = 48 };
 
-/* Text with the characters replaced that mean something in HTML. */
+/* Each text of a page that is not of this library goes through one of these two: names, titles,
+ * units, messages, texts of files. Control characters and bytes that are no UTF-8 become U+FFFD
+ * in both. */
+
+/* A text of HTML or SVG, also in an attribute. */
 void mps__html(FILE *out, const char *text);
 /* The text of a JSON string with its quotes, safe within <script>. */
 void mps__json(FILE *out, const char *text);

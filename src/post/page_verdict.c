@@ -37,20 +37,28 @@ static state by_limits(double value, double good, double poor)
 static light light_end(const page_run *r)
 {
     light l = {.name = "End of the run"};
-    char t[TEXT_NUMBER];
+    char t[TEXT_NUMBER], until[TEXT_NUMBER];
     const char *status = mps__page_string(r, "status"), *error = mps__page_string(r, "error");
     const bool ok = strcmp(status, "ok") == 0, stopped = strcmp(status, "MPS_W_STOPPED") == 0;
-    l.state = ok ? GOOD : stopped ? LOOK : POOR;
+    const bool unfinished = mps__page_is_unfinished(r), part = stopped || unfinished;
+    l.state = ok ? GOOD : part ? LOOK : POOR;
     snprintf(l.value, sizeof l.value, "%.40s",
-             ok          ? "complete"
-             : stopped   ? "interrupted"
-             : status[0] ? status
-                         : "not known");
+             ok           ? "complete"
+             : stopped    ? "interrupted"
+             : unfinished ? "not finished"
+             : status[0]  ? status
+                          : "not known");
     mps__quantity(t, mps__page_number(r, "t_end"), "s");
-    snprintf(l.text, sizeof l.text, "The run reached t = %s.%s%.200s", t, error[0] ? " " : "",
-             error);
-    if (stopped)
-        snprintf(l.advice, sizeof l.advice, "Go on from its checkpoint: mps resume.");
+    mps__quantity(until, mps__page_number(r, "until"), "s");
+    if (part)
+        snprintf(l.text, sizeof l.text, "Unfinished, at t = %s of %s.", t, until);
+    else
+        snprintf(l.text, sizeof l.text, "The run reached t = %s.%s%.200s", t, error[0] ? " " : "",
+                 error);
+    if (part)
+        snprintf(l.advice, sizeof l.advice,
+                 "What is shown ends there. If the run is not in progress, 'mps resume' with its "
+                 "folder continues it.");
     else if (!ok)
         snprintf(l.advice, sizeof l.advice,
                  "Nothing after the last row is known. Look at the last frames of the film, then "

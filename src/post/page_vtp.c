@@ -66,7 +66,7 @@ static mps_status take_parts(vtp_frame *f, const char *head)
     if (!text || f->parts) return MPS_OK;
     const size_t most = strcspn(text, "<");
     f->parts = calloc(most + 2, 1);
-    if (!f->parts) return mps__page_fail(f->errors, MPS_E_NOMEM, "no memory for the page");
+    if (!f->parts) return mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the page");
     char *end = NULL;
     size_t n = 0;
     for (text++; n < most; text = end, n++) {
@@ -82,17 +82,17 @@ static mps_status take_head(vtp_frame *f, vtp_piece *p, const char *head, size_t
     const char *mark = NULL, *points = strstr(head, "NumberOfPoints=\"");
     for (const char *c = head; !mark && (c = strstr(c, data_mark)) != NULL;) mark = c;
     if (!mark || !points || (size_t)(mark - head) + sizeof data_mark > size)
-        return broken(f->errors, p->path, "is no frame of this library");
+        return broken(f->run->errors, p->path, "is no frame of this library");
     if (!strstr(head, host_order()) || !strstr(head, "header_type=\"UInt64\""))
-        return broken(f->errors, p->path, "is from a machine with another order of bytes");
+        return broken(f->run->errors, p->path, "is from a machine with another order of bytes");
     p->base = (long)(mark - head) + (long)sizeof data_mark - 1;
     p->points = strtoll(points + strlen("NumberOfPoints=\""), NULL, 10);
     if (p->points < 0 || p->points > INT32_MAX)
-        return broken(f->errors, p->path, "its number of points is not usable");
+        return broken(f->run->errors, p->path, "its number of points is not usable");
     for (const char *tag = strstr(head, "<DataArray "); tag; tag = strstr(tag + 1, "<DataArray ")) {
         const char *end = strchr(tag, '>');
         if (!end || !take_array(p, tag, end))
-            return broken(f->errors, p->path, "an array cannot be read");
+            return broken(f->run->errors, p->path, "an array cannot be read");
     }
     f->points += p->points;
     return take_parts(f, head);
@@ -102,16 +102,19 @@ static mps_status take_head(vtp_frame *f, vtp_piece *p, const char *head, size_t
 static mps_status read_head(vtp_frame *f, const char *path, char **head, size_t *size)
 {
     *head = NULL;
-    FILE *file = fopen(path, "rb");
-    if (!file)
-        return mps__page_fail(f->errors, MPS_E_IO, "cannot open '%s': %s", path, strerror(errno));
+    FILE *file;
+    const mps_status status = mps__page_open(f->run, path, &file);
+    if (status == MPS_E_NAME)
+        return mps__page_fail(f->run->errors, MPS_E_IO, "cannot open '%s': %s", path,
+                              strerror(ENOENT));
+    if (status != MPS_OK) return status;
     *head = malloc(HEAD_MOST + 1);
     if (*head) {
         *size = fread(*head, 1, HEAD_MOST, file);
         (*head)[*size] = '\0';
     }
     fclose(file);
-    return *head ? MPS_OK : mps__page_fail(f->errors, MPS_E_NOMEM, "no memory for the page");
+    return *head ? MPS_OK : mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the page");
 }
 
 /* Takes `path`. */
@@ -124,7 +127,7 @@ static mps_status add_piece(vtp_frame *f, char *path)
                           : NULL;
     if (!more) {
         free(path);
-        return mps__page_fail(f->errors, MPS_E_NOMEM, "no memory for the page");
+        return mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the page");
     }
     f->piece = more;
     vtp_piece *p = &more[f->pieces++];
@@ -152,22 +155,22 @@ static char *path_beside(const char *path, const char *name, size_t length)
 static mps_status open_pieces(vtp_frame *f, const char *path)
 {
     char *text = NULL;
-    mps_status status = mps__page_file(f->errors, path, 64 << 20, &text, NULL);
-    if (status == MPS_E_NAME) status = broken(f->errors, path, "is not there");
+    mps_status status = mps__page_file(f->run, path, 64 << 20, &text, NULL);
+    if (status == MPS_E_NAME) status = broken(f->run->errors, path, "there is no such file");
     const char *tag = text;
     while (status == MPS_OK && (tag = strstr(tag, "<Piece Source=\"")) != NULL) {
         tag += strlen("<Piece Source=\"");
         status = add_piece(f, path_beside(path, tag, strcspn(tag, "\"")));
     }
-    if (status == MPS_OK && f->pieces == 0) status = broken(f->errors, path, "names no piece");
+    if (status == MPS_OK && f->pieces == 0) status = broken(f->run->errors, path, "names no piece");
     free(text);
     return status;
 }
 
-mps_status mps__vtp_open(vtp_frame *f, page_errors *e, const char *path)
+mps_status mps__vtp_open(vtp_frame *f, const page_run *run, const char *path)
 {
     const size_t length = strlen(path);
-    *f = (vtp_frame){.errors = e};
+    *f = (vtp_frame){.run = run};
     mps_status status = length > 5 && strcmp(path + length - 5, ".pvtp") == 0
                             ? open_pieces(f, path)
                             : add_piece(f, strdup(path));
@@ -246,15 +249,18 @@ mps_status mps__vtp_read(const vtp_frame *f, const char *name, double *out)
     for (int32_t k = 0; k < f->pieces; k++) {
         const vtp_piece *p = &f->piece[k];
         const vtp_array *a = find(p, name);
-        if (!a) return mps__page_fail(f->errors, MPS_E_IO, "frame '%s' has no '%s'", p->path, name);
-        FILE *file = fopen(p->path, "rb");
-        const bool good = file && a->offset < INT64_MAX / 2 &&
+        if (!a)
+            return mps__page_fail(f->run->errors, MPS_E_IO, "frame '%s' has no '%s'", p->path,
+                                  name);
+        FILE *file;
+        const mps_status status = mps__page_open(f->run, p->path, &file);
+        const bool good = status == MPS_OK && a->offset < INT64_MAX / 2 &&
                           fseek(file, p->base + (long)a->offset, SEEK_SET) == 0 &&
                           read_numbers(file, a->type, p->points * a->width, out);
         if (file) fclose(file);
         if (!good)
-            return mps__page_fail(f->errors, MPS_E_IO, "frame '%s': '%s' is not complete", p->path,
-                                  name);
+            return mps__page_fail(f->run->errors, MPS_E_IO, "frame '%s': '%s' is not complete",
+                                  p->path, name);
         out += p->points * a->width;
     }
     return MPS_OK;

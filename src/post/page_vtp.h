@@ -24,7 +24,7 @@ typedef struct vtp_piece {
 } vtp_piece;
 
 typedef struct vtp_frame {
-    page_errors *errors;
+    const page_run *run;
     int64_t points; /* of all pieces */
     int32_t pieces;
     vtp_piece *piece;
@@ -32,7 +32,7 @@ typedef struct vtp_frame {
 } vtp_frame;
 
 /* Read what the frame holds. */
-mps_status mps__vtp_open(vtp_frame *f, page_errors *e, const char *path);
+mps_status mps__vtp_open(vtp_frame *f, const page_run *run, const char *path);
 void mps__vtp_close(vtp_frame *f);
 /* @return numbers a particle, 0: there is no such array in all pieces */
 int32_t mps__vtp_width(const vtp_frame *f, const char *name);

@@ -38,8 +38,6 @@ static void print_number(char out[32], double value, double step)
     const int decimals = (int)fmax(0, ceil(-log10(step) - 1e-9));
     if (fabs(value) < 0.5 * step) value = 0;
     snprintf(out, 32, "%s%.*f", value < 0 ? minus : "", decimals < 12 ? decimals : 12, fabs(value));
-    for (char *at = out; *at; at++)
-        if (*at == ',') *at = '.'; /* of the locale */
 }
 
 /* ---- axes -------------------------------------------------------------------------------------------------------- */

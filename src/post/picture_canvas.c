@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "picture_canvas.h"
+#include "plain.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -158,22 +159,10 @@ void mps__canvas_arrow(canvas *c, double x0, double y0, double x1, double y1, co
 /* ---- text ---- */
 
 /* Bytes of the character at `text`, 0: it is not UTF-8 as cairo wants it. */
-static size_t character(const unsigned char *text)
+static size_t character(const char *text)
 {
-    static const uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const size_t size = text[0] < 0x80             ? 1
-                        : (text[0] & 0xe0) == 0xc0 ? 2
-                        : (text[0] & 0xf0) == 0xe0 ? 3
-                        : (text[0] & 0xf8) == 0xf0 ? 4
-                                                   : 0;
-    if (size < 2) return size && text[0] >= 0x20 && text[0] != 0x7f;
-    uint32_t code = text[0] & (0x7fu >> size);
-    for (size_t k = 1; k < size; k++) {
-        if ((text[k] & 0xc0) != 0x80) return 0;
-        code = code << 6 | (text[k] & 0x3f);
-    }
-    const bool surrogate = code >= 0xd800 && code < 0xe000;
-    return code >= least[size] && code < 0x110000 && !surrogate ? size : 0;
+    const unsigned char c = (unsigned char)*text;
+    return c < 0x20 || c == 0x7f ? 0 : mps__character(text);
 }
 
 /* Whole characters alone. */
@@ -181,7 +170,7 @@ static void clean(char out[TEXT_MOST], const char *text)
 {
     size_t n = 0;
     while (*text && n + 4 < TEXT_MOST) {
-        const size_t size = character((const unsigned char *)text);
+        const size_t size = character(text);
         if (size > 0) memcpy(out + n, text, size);
         if (size == 0) out[n] = '?';
         n += size ? size : 1;
@@ -198,6 +187,23 @@ static double measure(canvas *c, text_style style, const char *text)
     cairo_set_font_size(c->cairo, style.size * c->unit);
     cairo_text_extents(c->cairo, text, &extents);
     return extents.x_advance;
+}
+
+bool mps__canvas_letters(void)
+{
+    enum { SIDE = 32 };
+    const text_style style = {.size = 20, .place = TEXT_LEFT, .ink = {0, 0, 0}};
+    canvas c;
+    bool dark = false;
+    if (!mps__canvas_create(&c, SIDE, SIDE, 1)) return true; /* no memory is another matter */
+    mps__canvas_text(&c, 4, 26, style, 0, "P8");
+    mps__canvas_pixels_begin(&c);
+    for (int y = 0; y < SIDE; y++)
+        for (int x = 0; x < SIDE; x++)
+            dark = dark || (c.pixel[(size_t)y * (size_t)c.stride + (size_t)x] & 255) < 128;
+    mps__canvas_pixels_end(&c);
+    mps__canvas_destroy(&c);
+    return dark;
 }
 
 double mps__canvas_text_width(canvas *c, text_style style, const char *text)

@@ -61,6 +61,8 @@ void mps__canvas_arrow(canvas *c, double x0, double y0, double x1, double y1, co
 /* UTF-8; y is the base line. Bytes that are not UTF-8 become '?', a text wider than `most` [pixels] ends with an ellipsis; 0: no limit. */
 void mps__canvas_text(canvas *c, double x, double y, text_style style, double most,
                       const char *text);
+/* Whether letters can be drawn: they cannot without a font, or with a broken list of fonts. */
+bool mps__canvas_letters(void);
 double mps__canvas_text_width(canvas *c, text_style style, const char *text);
 
 /* Write a PNG. @return MPS_E_IO with the system's reason, MPS_E_NOMEM; no part of a file is left */

@@ -166,8 +166,6 @@ static void draw_head(canvas *c, const scene *s)
     const double foot = 40 * c->unit, margin = 24 * c->unit;
     char text[48];
     snprintf(text, sizeof text, "t = %.3f s", s->t);
-    for (char *at = text; *at; at++)
-        if (*at == ',') *at = '.'; /* of the locale */
     const double used = mps__canvas_text_width(c, style, text);
     mps__canvas_text(c, c->width - margin, foot, style, 0, text);
     draw_gravity(c, s, c->width - 2.2 * margin - used, foot - 8 * c->unit);

@@ -2,6 +2,7 @@
 /* A state for ParaView. It is a script, not a .pvsm: a .pvsm names the files by their whole path and lists some thousand properties that
  * change from version to version. */
 #include "picture_scene.h"
+#include "run_file.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
@@ -114,14 +115,9 @@ static void print_text(FILE *file, const char *text)
     fputc('\'', file);
 }
 
-/* A number of Python, whatever the locale says about the decimal point. */
 static void print_number(FILE *file, double value, const char *end)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%.9g", value);
-    for (char *at = text; *at; at++)
-        if (*at == ',') *at = '.';
-    fprintf(file, "%s%s", text, end);
+    fprintf(file, "%.9g%s", value, end);
 }
 
 static void print_vector(FILE *file, const char *name, const double *x, int count)
@@ -175,7 +171,7 @@ static char *whole_path(const char *folder)
 static mps_status write_script(const scene *s, const char *folder, page_errors *e)
 {
     char *path = mps__page_path(folder, "paraview.py"), *whole = whole_path(folder);
-    FILE *file = path && whole ? fopen(path, "w") : NULL;
+    FILE *file = path && whole ? mps__run_create(path, "w") : NULL;
     mps_status status = MPS_OK;
     if (file) print_script(file, s, whole);
     bool failed = !file || ferror(file);

@@ -6,7 +6,10 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { FINE = 2 }; /* samples along a pixel: their mean has soft edges */
+enum {
+    FINE = 2,    /* samples along a pixel: their mean has soft edges */
+    LAYERS = 512 /* in which particles are sorted by depth */
+};
 
 /* What a sample shows; larger depths are nearer to the reader. */
 typedef struct sample {
@@ -97,12 +100,16 @@ static void draw_sphere(const view *v, const sphere *ball)
     if (!(fabs(m[0]) < 1e6 && fabs(m[1]) < 1e6)) return;
     const int x0 = (int)fmax(0, floor(m[0] - r)), x1 = (int)fmin(v->width - 1, m[0] + r),
               y0 = (int)fmax(0, floor(m[1] - r)), y1 = (int)fmin(v->height - 1, m[1] + r);
-    for (int j = y0; j <= y1; j++)
+    const double nearest = m[2] + r / v->at.scale;
+    for (int j = y0; j <= y1; j++) {
+        const double dy = (j + 0.5 - m[1]) / r;
+        sample *p = v->pixel + (size_t)j * (size_t)v->width;
         for (int i = x0; i <= x1; i++) {
-            const double dx = (i + 0.5 - m[0]) / r, dy = (j + 0.5 - m[1]) / r;
-            if (dx * dx + dy * dy <= 1)
-                shade(v, v->pixel + (size_t)j * (size_t)v->width + i, ball, dx, dy);
+            if (nearest <= (double)p[i].depth) continue;
+            const double dx = (i + 0.5 - m[0]) / r;
+            if (dx * dx + dy * dy <= 1) shade(v, p + i, ball, dx, dy);
         }
+    }
 }
 
 /* The outside of the tank: what looks at the reader alone is left out, the rest is a pale shell, darker below and to the right.
@@ -131,11 +138,33 @@ static bool dress_wall(const view *v, const hull *h, int64_t i, sphere *ball)
     return true;
 }
 
-/* One of two passes: the shell, or all else. */
-static void draw_spheres(const view *v, const hull *h, bool shell)
+/* The layer of a particle, of about a spacing; 0 is the one nearest to the reader. */
+static size_t layer(const view *v, const float x[3])
+{
+    const double at[3] = {(double)x[0], (double)x[1], (double)x[2]};
+    const double k = (v->at.hi[2] - along(v->at.near, at)) / (v->at.hi[2] - v->at.lo[2]) * LAYERS;
+    return k > 0 ? (size_t)fmin(k, LAYERS - 1) : 0;
+}
+
+/* The particles by layers, from near to far, so that most of the hidden ones are found hidden
+ * before they are shaded; within a layer as in the scene. */
+static int64_t *sort_particles(const view *v)
 {
     const scene *s = v->s;
-    for (int64_t i = 0; i < s->n; i++) {
+    int64_t first[LAYERS + 1] = {0};
+    int64_t *order = malloc((size_t)s->n * sizeof *order);
+    for (int64_t i = 0; order && i < s->n; i++) first[layer(v, s->x + 3 * i) + 1]++;
+    for (int k = 0; k < LAYERS; k++) first[k + 1] += first[k];
+    for (int64_t i = 0; order && i < s->n; i++) order[first[layer(v, s->x + 3 * i)]++] = i;
+    return order;
+}
+
+/* One of two passes: the shell, or all else. */
+static void draw_spheres(const view *v, const hull *h, const int64_t *order, bool shell)
+{
+    const scene *s = v->s;
+    for (int64_t k = 0; k < s->n; k++) {
+        const int64_t i = order[k];
         const bool fluid = s->kind[i] == SCENE_FLUID;
         const double x[3] = {(double)s->x[3 * i], (double)s->x[3 * i + 1], (double)s->x[3 * i + 2]};
         /* radii [dp] at which surfaces have no gaps */
@@ -150,31 +179,45 @@ static void draw_spheres(const view *v, const hull *h, bool shell)
     }
 }
 
-/* The shell is behind all: at its edge, where it turns towards the reader, it hides nothing either. */
-static void draw_all(const view *v, const hull *h)
+/* The shell is behind all: at its edge, where it turns towards the reader, it hides nothing either.
+ * @return false: no memory */
+static bool draw_all(const view *v, const hull *h)
 {
-    draw_spheres(v, h, true);
+    int64_t *order = sort_particles(v);
+    if (!order) return false;
+    draw_spheres(v, h, order, true);
     for (size_t i = 0; i < (size_t)v->width * (size_t)v->height; i++) v->pixel[i].depth = -INFINITY;
-    draw_spheres(v, h, false);
+    draw_spheres(v, h, order, false);
+    free(order);
+    return true;
 }
 
 /* ---- the view ---------------------------------------------------------------------------------------------------- */
 
-/* The mean of the samples of a pixel. */
+/* The mean of the samples of a pixel. @return false: all are white, as the sheet is */
+static bool find_mean(const view *v, int x, int y, colour *out)
+{
+    const sample *row = v->pixel + (size_t)(y * FINE) * (size_t)v->width + (size_t)(x * FINE);
+    double r = 0, g = 0, b = 0;
+    for (int j = 0; j < FINE; j++, row += v->width)
+        for (int i = 0; i < FINE; i++) {
+            r += (double)row[i].r;
+            g += (double)row[i].g;
+            b += (double)row[i].b;
+        }
+    const double all = FINE * FINE;
+    *out = (colour){r / all, g / all, b / all};
+    return r < all || g < all || b < all;
+}
+
 static void copy_pixels(canvas *c, const pixel_box *box, const view *v)
 {
     mps__canvas_pixels_begin(c);
     for (int y = 0; y < v->height / FINE; y++)
         for (int x = 0; x < v->width / FINE; x++) {
-            colour sum = {0, 0, 0};
-            for (int k = 0; k < FINE * FINE; k++) {
-                const sample *p = v->pixel + (size_t)(y * FINE + k / FINE) * (size_t)v->width +
-                                  x * FINE + k % FINE;
-                sum.r += (double)p->r / (FINE * FINE);
-                sum.g += (double)p->g / (FINE * FINE);
-                sum.b += (double)p->b / (FINE * FINE);
-            }
-            mps__canvas_dot(c, box, (int)box->x + x, (int)box->y + y, sum, 1);
+            colour mean;
+            if (find_mean(v, x, y, &mean))
+                mps__canvas_dot(c, box, (int)box->x + x, (int)box->y + y, mean, 1);
         }
     mps__canvas_pixels_end(c);
 }
@@ -257,9 +300,8 @@ mps_status mps__space_draw(canvas *c, const pixel_box *box, const scene *s, page
 {
     view v = {0};
     hull h;
-    const bool open = mps__hull_create(&h, s) && open_view(&v, box, s);
-    if (open) {
-        draw_all(&v, &h);
+    const bool drawn = mps__hull_create(&h, s) && open_view(&v, box, s) && draw_all(&v, &h);
+    if (drawn) {
         copy_pixels(c, box, &v);
         draw_box(c, box, &v);
         draw_axes(c, box, &v);
@@ -267,5 +309,5 @@ mps_status mps__space_draw(canvas *c, const pixel_box *box, const scene *s, page
     }
     free(v.pixel);
     mps__hull_free(&h);
-    return open ? MPS_OK : mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");
+    return drawn ? MPS_OK : mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");
 }

@@ -80,6 +80,12 @@ mps_status mps__stats_put_sensors(mps_stats_config *config, const char *names);
 struct page_run;
 mps_status mps__stats_take(const struct page_run *r, double end, mps_stats_config *config);
 
+/* ---- statistics_table.c ---- */
+
+/* A reference of summary.json as a table, which is to be destroyed. @return false: no memory */
+struct json_value;
+bool mps__stats_reference(const struct json_value *one, mps_table **table);
+
 /* ---- statistics_events.c ---- */
 
 /* A signal as the events see it: without nan, between from and until, at the rate, filtered. */

@@ -26,8 +26,9 @@ static double value_at(lines *s, double t)
     return s->p[s->at] + fmin(fmax(f, 0), 1) * (s->p[s->at + 1] - s->p[s->at]);
 }
 
+/* @param least  known samples that are needed */
 static mps_status take(const mps_stats_config *config, const char *name, const mps_series *from,
-                       lines *s)
+                       int least, lines *s)
 {
     MPS__STATS_CHECK(config, mps__stats_known(from, sizeof *from),
                      "%s: NULL, or struct_size is not set", name);
@@ -41,8 +42,8 @@ static mps_status take(const mps_stats_config *config, const char *name, const m
         s->t[s->n] = from->t[k];
         s->p[s->n++] = from->p[k];
     }
-    MPS__STATS_CHECK(config, s->n >= 2, "%s has %lld known values: 2 are needed", name,
-                     (long long)s->n);
+    MPS__STATS_CHECK(config, s->n >= least, "%s has %lld known values: %d are needed", name,
+                     (long long)s->n, least);
     return MPS_OK;
 }
 
@@ -179,6 +180,7 @@ static mps_status compare(const mps_stats_config *config, lines *a, lines *b, mp
     MPS__STATS_CHECK(config, c->t_first < c->t_last,
                      "no common time: first is from %.9g to %.9g s, second from %.9g to %.9g s",
                      a->t[0], a->t[a->n - 1], b->t[0], b->t[b->n - 1]);
+    for (int64_t k = 0; k < a->n; k++) c->points += a->t[k] >= c->t_first && a->t[k] <= c->t_last;
     find_differences(a, b, c);
     return find_shift(config, a, b, c);
 }
@@ -190,9 +192,118 @@ mps_status mps_series_compare(const mps_stats_config *config, const mps_series *
     mps_comparison out = {.struct_size = sizeof out};
     MPS__STATS_TRY(mps__stats_check(config));
     MPS__STATS_CHECK(config, mps__stats_known(c, sizeof *c), "call mps_comparison_init() first");
-    mps_status status = take(config, "first.", first, &a);
-    if (status == MPS_OK) status = take(config, "second.", second, &b);
+    mps_status status = take(config, "first.", first, 2, &a);
+    if (status == MPS_OK) status = take(config, "second.", second, 2, &b);
     if (status == MPS_OK) status = compare(config, &a, &b, &out);
+    free(a.t);
+    free(b.t);
+    if (status == MPS_OK) mps__stats_out(c, &out, sizeof out);
+    return status;
+}
+
+/* ---- points ---- */
+
+/* Where the points are looked for: steps to each side of the largest shift. */
+enum { LAGS = 400, POINTS_LEAST = 5 };
+
+/* Pearson's correlation of the points with the lines `shift` later; NAN: fewer than `least`
+ * points are in the time of the lines. */
+static double correlate_points(const lines *a, lines *b, double shift, int64_t least)
+{
+    double n = 0, ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
+    b->at = 0;
+    for (int64_t k = 0; k < a->n; k++) {
+        const double t = a->t[k] + shift;
+        if (!(t >= b->t[0] && t <= b->t[b->n - 1])) continue;
+        const double x = a->p[k], y = value_at(b, t), dx = x - ma, dy = y - mb;
+        n++;
+        ma += dx / n;
+        mb += dy / n;
+        aa += dx * (x - ma);
+        bb += dy * (y - mb);
+        ab += dx * (y - mb);
+    }
+    return n >= (double)least && aa > 0 && bb > 0 ? ab / sqrt(aa * bb) : NAN;
+}
+
+/* The largest correlation within the shifts that are allowed, but not at their ends. */
+static void find_points_shift(const mps_stats_config *config, const lines *a, lines *b,
+                              mps_comparison *c)
+{
+    double most = config->shift_most, r[2 * LAGS + 1];
+    int best = LAGS;
+    c->shift = c->correlation = c->phase = NAN;
+    if (isnan(most))
+        most = isnan(config->period) ? 0.25 * (c->t_last - c->t_first) : 0.5 * config->period;
+    const double step = most / LAGS;
+    if (a->n < POINTS_LEAST || !(step > 0)) return;
+    for (int k = 0; k <= 2 * LAGS; k++)
+        r[k] = correlate_points(a, b, (k - LAGS) * step, a->n > 6 ? a->n * 3 / 4 : POINTS_LEAST);
+    for (int k = 1; k <= LAGS; k++)
+        for (int sign = -1; sign <= 1; sign += 2)
+            if (r[LAGS + sign * k] > r[best] + 1e-9 || isnan(r[best])) best = LAGS + sign * k;
+    if (best == 0 || best == 2 * LAGS || !(r[best - 1] < INFINITY) || !(r[best + 1] < INFINITY))
+        return;
+    const double curvature = r[best - 1] + r[best + 1] - 2 * r[best];
+    const double part = curvature < 0 ? 0.5 * (r[best - 1] - r[best + 1]) / curvature : 0;
+    c->correlation = r[best];
+    c->shift = step * (best - LAGS + part);
+    c->phase = 2 * 3.14159265358979323846 * c->shift / config->period;
+}
+
+static void find_points(const lines *a, lines *b, mps_comparison *c)
+{
+    double sum = 0, squares = 0, squares_first = 0;
+    c->peak[0] = c->peak[1] = c->trough[0] = c->trough[1] = c->largest = NAN;
+    b->at = 0;
+    for (int64_t k = 0; k < a->n; k++) {
+        const double t = a->t[k], both[2] = {a->p[k], value_at(b, t)}, d = both[1] - both[0];
+        for (int which = 0; which < 2; which++) note_value(t, both[which], which, c);
+        sum += both[0];
+        squares_first += both[0] * both[0];
+        c->mean += d / (double)a->n;
+        squares += d * d;
+        if (!(fabs(d) <= fabs(c->largest))) c->largest = d, c->t_largest = t;
+    }
+    c->points = a->n;
+    c->rms = sqrt(squares / (double)a->n);
+    const double mean = sum / (double)a->n;
+    c->rms_first = sqrt(fmax(0, squares_first / (double)a->n - mean * mean));
+}
+
+static mps_status compare_points(const mps_stats_config *config, lines *a, lines *b,
+                                 mps_comparison *c)
+{
+    const double from = fmax(b->t[0], config->from), until = fmin(b->t[b->n - 1], config->until);
+    const double first = a->t[0], last = a->t[a->n - 1];
+    int64_t kept = 0;
+    for (int64_t k = 0; k < a->n; k++) {
+        if (!(a->t[k] >= from && a->t[k] <= until)) continue;
+        a->t[kept] = a->t[k];
+        a->p[kept++] = a->p[k];
+    }
+    a->n = kept;
+    MPS__STATS_CHECK(config, kept > 0,
+                     "no common time: the points are from %.9g to %.9g s, the series from %.9g to "
+                     "%.9g s",
+                     first, last, from, until);
+    c->t_first = a->t[0];
+    c->t_last = a->t[kept - 1];
+    find_points(a, b, c);
+    find_points_shift(config, a, b, c);
+    return MPS_OK;
+}
+
+mps_status mps_points_compare(const mps_stats_config *config, const mps_series *points,
+                              const mps_series *series, mps_comparison *c)
+{
+    lines a = {0}, b = {0};
+    mps_comparison out = {.struct_size = sizeof out};
+    MPS__STATS_TRY(mps__stats_check(config));
+    MPS__STATS_CHECK(config, mps__stats_known(c, sizeof *c), "call mps_comparison_init() first");
+    mps_status status = take(config, "points.", points, 1, &a);
+    if (status == MPS_OK) status = take(config, "series.", series, 2, &b);
+    if (status == MPS_OK) status = compare_points(config, &a, &b, &out);
     free(a.t);
     free(b.t);
     if (status == MPS_OK) mps__stats_out(c, &out, sizeof out);

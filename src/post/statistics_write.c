@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Statistics as text: events as CSV, everything as JSON. */
+#include "plain.h"
 #include "statistics.h"
-#include <locale.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -107,15 +107,11 @@ typedef struct entry {
 
 static void json_string(text *out, const char *s)
 {
+    char character[8];
     put(out, "\"");
-    for (; *s; s++) {
-        const unsigned char c = (unsigned char)*s;
-        if (c == '"' || c == '\\')
-            put(out, "\\%c", c);
-        else if (c < 0x20)
-            put(out, "\\u%04x", (unsigned)c);
-        else
-            put(out, "%c", c);
+    while (*s) {
+        s += mps__json_character(s, character);
+        put(out, "%s", character);
     }
     put(out, "\"");
 }
@@ -277,29 +273,12 @@ static void json_all(text *out, int32_t count, const char *const *names,
 
 /* ---- public ---- */
 
-/* Numbers have a point, whatever the locale of the program is. */
-static locale_t begin_numbers(locale_t *c)
-{
-    *c = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0);
-    return *c ? uselocale(*c) : (locale_t)0;
-}
-
-static void end_numbers(locale_t c, locale_t before)
-{
-    uselocale(before);
-    freelocale(c);
-}
-
 size_t mps_stats_csv_write(int32_t count, const char *const *names,
                            const mps_impacts *const *impacts, char *buffer, size_t size)
 {
     text out = {buffer, size, 0};
-    locale_t c;
     if (!all_there(count, names, impacts) || (!buffer && size > 0)) return 0;
-    const locale_t before = begin_numbers(&c);
-    if (!c) return 0;
     csv_all(&out, count, names, impacts);
-    end_numbers(c, before);
     return out.length;
 }
 
@@ -308,11 +287,7 @@ size_t mps_stats_json_write(int32_t count, const char *const *names,
                             size_t size)
 {
     text out = {buffer, size, 0};
-    locale_t c;
     if (!all_there(count, names, impacts) || (!buffer && size > 0) || highest < 0) return 0;
-    const locale_t before = begin_numbers(&c);
-    if (!c) return 0;
     json_all(&out, count, names, impacts, highest);
-    end_numbers(c, before);
     return out.length;
 }

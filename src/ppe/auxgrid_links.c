@@ -27,13 +27,16 @@ typedef struct looking {
 /* Sums: of k_ij r_ij^2, of k_ij of the sample. Maxima: whether a diagonal entry is not finite, whether one is negative, -x along each axis. */
 enum { SQUARES, CONDUCTANCES, SUMS, BAD = 0, NEGATIVE, LEAST, MAXIMA = 5 };
 
+/* [dp] Walls are on planes between places: rounding does not decide on which side. */
+static const double rounding = 1e-6;
+
 /* One place of SAMPLE, on each line along an axis. A function of the place: the numbers of rows depend on the rank. */
 MPS_ROW bool is_sampled(const int dim, const looking *f, int64_t i)
 {
     const int64_t step[3] = {1, 5, 7};
     int64_t sum = 0;
     for (int a = 0; a < dim; a++) {
-        const double u = f->x[i * dim + a] * f->per_dp;
+        const double u = f->x[i * dim + a] * f->per_dp + rounding;
         if (fabs(u) < 0x1p40) sum += step[a] * (int64_t)floor(u);
     }
     return f->every || sum % SAMPLE == 0;

@@ -21,8 +21,11 @@ extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
-/* On a device sundials.pcg solves with either of jacobi and auxgrid, or alone, an equation whose components are not singular: arrays of the
- * problem and p are there, and so is its parallel-for. On many ranks not with auxgrid. */
+/* On a device sundials.pcg solves, with jacobi, auxgrid or no preconditioner, an equation that has
+ * no singular component and no law of a gas: mps__solvers_there(). Then p and the arrays of the
+ * problem are addresses of the device, and the problem's parallel-for is that of the device; on
+ * many ranks each rank has a device of its own. For that the core calls the functions below, besides
+ * those of the tables. */
 
 /* What sundials.pcg may count on in its solutions on a device, so that it waits less. */
 typedef struct mps__pcg_hint {

@@ -58,7 +58,7 @@ typedef struct mps__cg_room {
     mps__cg_numbers numbers;
     mps__cg_begun begun;
     mps__cg_checked checked;
-    mps__gathered got;
+    mps__reduced got;
     double poison; /* 1: the correction has NaN or infinity */
 } mps__cg_room;
 
@@ -67,7 +67,7 @@ typedef struct mps__cg_recurrence {
     mps__cg_numbers *n;
     const mps__cg_begun *begun;
     const mps__cg_checked *checked;
-    const mps__gathered *got;
+    const mps__reduced *got;
     const double *poison, *doubt;
     /* the equation */
     const int64_t *row;

@@ -80,7 +80,7 @@ double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, doubl
     return mps_exact_value(&sum);
 }
 
-void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y, mps__gathered *to)
+void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y, mps__reduced *to)
 {
     mps__values_gather(
         mps__device_of(problem->parallel), &multiply_rows, MPS__ANY_DIM, problem->n,

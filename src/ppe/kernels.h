@@ -28,8 +28,7 @@ void mps__give(const mps_allocator *allocator, void *block);
 /* y = A x. @return x'y */
 double mps__rows_multiply(const mps_ppe_problem *problem, const double *x, double *y);
 /* The same on the device of the problem's parallel-for, without waiting for the sum. */
-void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y,
-                      mps__gathered *to);
+void mps__rows_gather(const mps_ppe_problem *problem, const double *x, double *y, mps__reduced *to);
 /* Whether no row has a negative diagonal. */
 bool mps__rows_nonnegative(const mps_ppe_problem *problem);
 

@@ -140,7 +140,7 @@ static void dot_range(const operands *o, int64_t begin, int64_t end, mps_exact *
 MPS__VALUES_BY(dot_rows, dot_row, dot_range, operands, 1, 0)
 
 void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
-                             mps__gathered *to)
+                             mps__reduced *to)
 {
     mps__values_gather(mps__device_of(problem->parallel), &dot_rows, MPS__ANY_DIM, problem->n,
                        &(operands){.x = x, .y = y}, to);

@@ -34,13 +34,14 @@ double mps__vectors_squares(const mps_ppe_problem *problem, const double *x, con
 /* Sum of x^2 and largest |x weight|, which no NaN is; weight NULL: 0. */
 void mps__vectors_norms(const mps_ppe_problem *problem, const double *x, const double *weight,
                         double *squares, double *largest);
-/* The same, on the device whose parallel-for the problem has, without waiting: to what is there. */
-typedef struct mps__gathered {
+/* Asynchronous reductions on the device whose parallel-for the problem has: `to` is an address of
+ * the device. */
+typedef struct mps__reduced {
     mps_exact sum;
     double largest;
-} mps__gathered;
+} mps__reduced;
 void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
-                             mps__gathered *to);
+                             mps__reduced *to);
 /* Largest of factor x, or of |x| if the factor is 0; not below `least`. A NaN does not count. */
 double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, double factor,
                             double least);

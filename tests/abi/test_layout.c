@@ -16,6 +16,7 @@
 #include <mps/parallel.h>
 #include <mps/particles.h>
 #include <mps/picture.h>
+#include <mps/plugin.h>
 #include <mps/ppe.h>
 #include <mps/probe.h>
 #include <mps/ranks.h>
@@ -33,22 +34,31 @@
 #define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), #type)
 #define AT(type, member, bytes) _Static_assert(offsetof(type, member) == (bytes), #type "." #member)
 
-SIZE(mps_body, 760);
+SIZE(mps_body, 808);
 AT(mps_body, struct_size, 0); AT(mps_body, free, 4); AT(mps_body, mass, 8); AT(mps_body, centre_of_mass, 16); AT(mps_body, inertia, 40);
 AT(mps_body, stiffness, 112); AT(mps_body, damping, 400); AT(mps_body, equilibrium, 688); AT(mps_body, load, 736); AT(mps_body, user, 744);
-AT(mps_body, gravity, 752); AT(mps_body, reserved, 756);
+AT(mps_body, gravity, 752); AT(mps_body, reserved, 756); AT(mps_body, friction, 760);
 
-SIZE(mps_body_report, 696);
+SIZE(mps_body_report, 752);
 AT(mps_body_report, struct_size, 0); AT(mps_body_report, free, 4); AT(mps_body_report, pose, 8); AT(mps_body_report, velocity, 56);
 AT(mps_body_report, acceleration, 104); AT(mps_body_report, liquid, 152); AT(mps_body_report, external, 200);
 AT(mps_body_report, restoring, 248); AT(mps_body_report, mass, 296); AT(mps_body_report, late, 584); AT(mps_body_report, iterations, 632);
 AT(mps_body_report, reserved, 636); AT(mps_body_report, kinetic, 640); AT(mps_body_report, spring, 648); AT(mps_body_report, weight, 656);
 AT(mps_body_report, damped, 664); AT(mps_body_report, external_work, 672); AT(mps_body_report, liquid_work, 680);
-AT(mps_body_report, start, 688);
+AT(mps_body_report, start, 688); AT(mps_body_report, friction, 696); AT(mps_body_report, rubbed, 744);
 
 SIZE(mps_case_message, 40);
 AT(mps_case_message, struct_size, 0); AT(mps_case_message, warning, 4); AT(mps_case_message, line, 8); AT(mps_case_message, column, 12);
 AT(mps_case_message, file, 16); AT(mps_case_message, text, 24); AT(mps_case_message, source, 32);
+
+SIZE(mps_case_options, 48);
+AT(mps_case_options, struct_size, 0); AT(mps_case_options, load, 4); AT(mps_case_options, set_count, 8);
+AT(mps_case_options, plugin_count, 12); AT(mps_case_options, set, 16); AT(mps_case_options, plugin, 24); AT(mps_case_options, text, 32);
+AT(mps_case_options, size, 40);
+
+SIZE(mps_case_cost, 32);
+AT(mps_case_cost, struct_size, 0); AT(mps_case_cost, reserved, 4); AT(mps_case_cost, wall_least, 8); AT(mps_case_cost, wall_most, 16);
+AT(mps_case_cost, memory, 24);
 
 SIZE(mps_case_key, 304);
 AT(mps_case_key, struct_size, 0); AT(mps_case_key, required, 4); AT(mps_case_key, path, 8); AT(mps_case_key, range, 16);
@@ -104,7 +114,7 @@ AT(mps_job_ranks, struct_size, 0); AT(mps_job_ranks, rank, 4); AT(mps_job_ranks,
 AT(mps_job_ranks, attach, 24); AT(mps_job_ranks, largest, 32); AT(mps_job_ranks, largest_numbers, 40); AT(mps_job_ranks, end, 48);
 AT(mps_job_ranks, abort, 56);
 
-SIZE(mps_job_config, 216);
+SIZE(mps_job_config, 232);
 AT(mps_job_config, struct_size, 0); AT(mps_job_config, resume, 4); AT(mps_job_config, name, 8); AT(mps_job_config, title, 16);
 AT(mps_job_config, command, 24); AT(mps_job_config, text, 32); AT(mps_job_config, model, 40); AT(mps_job_config, folder, 48);
 AT(mps_job_config, t_end, 56); AT(mps_job_config, row_interval, 64); AT(mps_job_config, checkpoint, 72); AT(mps_job_config, gravity, 80);
@@ -113,7 +123,8 @@ AT(mps_job_config, overwrite, 112); AT(mps_job_config, pieces, 116); AT(mps_job_
 AT(mps_job_config, profile, 128); AT(mps_job_config, quiet, 132); AT(mps_job_config, signals, 136); AT(mps_job_config, trace, 140);
 AT(mps_job_config, film, 144); AT(mps_job_config, threads, 148); AT(mps_job_config, page_bytes, 152); AT(mps_job_config, ranks, 160);
 AT(mps_job_config, say, 168); AT(mps_job_config, say_user, 176); AT(mps_job_config, error, 184); AT(mps_job_config, error_size, 192);
-AT(mps_job_config, dp, 200); AT(mps_job_config, device, 208);
+AT(mps_job_config, dp, 200); AT(mps_job_config, device, 208); AT(mps_job_config, peaks, 216); AT(mps_job_config, reserved, 220);
+AT(mps_job_config, checkpoint_clock, 224);
 
 SIZE(mps_job_column, 32);
 AT(mps_job_column, struct_size, 0); AT(mps_job_column, flags, 4); AT(mps_job_column, name, 8); AT(mps_job_column, unit, 16);
@@ -213,7 +224,7 @@ SIZE(mps_page_config, 40);
 AT(mps_page_config, struct_size, 0); AT(mps_page_config, frames, 4); AT(mps_page_config, bytes, 8); AT(mps_page_config, error, 16);
 AT(mps_page_config, error_size, 24); AT(mps_page_config, impacts, 32);
 
-SIZE(mps_page_info, 264);
+SIZE(mps_page_info, 344);
 AT(mps_page_info, struct_size, 0); AT(mps_page_info, frames, 4); AT(mps_page_info, bytes, 8); AT(mps_page_info, particles, 16);
 AT(mps_page_info, left_out, 24);
 
@@ -250,6 +261,24 @@ AT(mps_picture_config, reserved_2, 76);
 SIZE(mps_film_config, 40);
 AT(mps_film_config, struct_size, 0); AT(mps_film_config, width, 4); AT(mps_film_config, rate, 8); AT(mps_film_config, program, 16);
 AT(mps_film_config, error, 24); AT(mps_film_config, error_size, 32);
+
+SIZE(mps_drive_ops, 72);
+AT(mps_drive_ops, struct_size, 0); AT(mps_drive_ops, api, 4); AT(mps_drive_ops, name, 8); AT(mps_drive_ops, help, 16);
+AT(mps_drive_ops, setting_count, 24); AT(mps_drive_ops, reserved, 28); AT(mps_drive_ops, settings, 32); AT(mps_drive_ops, load, 40);
+AT(mps_drive_ops, motion, 48); AT(mps_drive_ops, period, 56); AT(mps_drive_ops, user, 64);
+
+SIZE(mps_registry, 72);
+AT(mps_registry, struct_size, 0); AT(mps_registry, api, 4); AT(mps_registry, host, 8); AT(mps_registry, model, 16);
+AT(mps_registry, solver, 24); AT(mps_registry, preconditioner, 32); AT(mps_registry, drive, 40); AT(mps_registry, plugin_api, 48);
+AT(mps_registry, reserved, 52); AT(mps_registry, name, 56); AT(mps_registry, version, 64);
+
+SIZE(mps_plugin_info, 40);
+AT(mps_plugin_info, struct_size, 0); AT(mps_plugin_info, items, 4); AT(mps_plugin_info, path, 8); AT(mps_plugin_info, sha256, 16);
+AT(mps_plugin_info, name, 24); AT(mps_plugin_info, version, 32);
+
+SIZE(mps_plugin_item, 32);
+AT(mps_plugin_item, struct_size, 0); AT(mps_plugin_item, kind, 4); AT(mps_plugin_item, name, 8); AT(mps_plugin_item, help, 16);
+AT(mps_plugin_item, drive, 24);
 
 SIZE(mps_ppe_ranks, 112);
 AT(mps_ppe_ranks, struct_size, 0); AT(mps_ppe_ranks, rank, 4); AT(mps_ppe_ranks, ranks, 8); AT(mps_ppe_ranks, reserved, 12);
@@ -334,11 +363,12 @@ AT(mps_harmonics, rest, 24); AT(mps_harmonics, amplitude, 32); AT(mps_harmonics,
 SIZE(mps_series, 32);
 AT(mps_series, struct_size, 0); AT(mps_series, reserved, 4); AT(mps_series, n, 8); AT(mps_series, t, 16); AT(mps_series, p, 24);
 
-SIZE(mps_comparison, 152);
+SIZE(mps_comparison, 160);
 AT(mps_comparison, struct_size, 0); AT(mps_comparison, reserved, 4); AT(mps_comparison, t_first, 8); AT(mps_comparison, t_last, 16);
 AT(mps_comparison, mean, 24); AT(mps_comparison, rms, 32); AT(mps_comparison, rms_first, 40); AT(mps_comparison, largest, 48);
 AT(mps_comparison, t_largest, 56); AT(mps_comparison, peak, 64); AT(mps_comparison, t_peak, 80); AT(mps_comparison, trough, 96);
 AT(mps_comparison, t_trough, 112); AT(mps_comparison, shift, 128); AT(mps_comparison, correlation, 136); AT(mps_comparison, phase, 144);
+AT(mps_comparison, points, 152);
 
 SIZE(mps_convergence, 32);
 AT(mps_convergence, struct_size, 0); AT(mps_convergence, kind, 4); AT(mps_convergence, order, 8); AT(mps_convergence, limit, 16);

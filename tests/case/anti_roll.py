@@ -84,7 +84,7 @@ def quick():
     tank = Box(0.8, 0.24)
     omega, stiffness = 0.6 * tank.omega1, 500 * tank.omega1**2
     wet, dry = response(tank, omega, "surge", 500, stiffness, 0.4 * 500 * tank.omega1, 50)
-    found = harmonic(columns("spring/probes.csv"), "body_surge", omega, 5 * 2 * math.pi / tank.omega1)
+    found = harmonic(columns("spring/probes.csv"), "surge", omega, 5 * 2 * math.pi / tank.omega1)
     check(abs(wet / dry - 1) > 0.1, f"the liquid matters: {wet / dry:.3f} of the response without it")
     check(abs(found / wet - 1) < 0.04, f"tank on a spring: {100 * (found / wet - 1):+.2f} % of theory, at most 4")
     # the same load from a table, linear between its rows
@@ -94,7 +94,7 @@ def quick():
     run("run", "spring.yaml", *short, "--set", "body.surge.load.ramp=0 s", "-o", "a")
     run("run", "spring.yaml", *short, "--set", "body.surge={period: 1 T1, damping: 20 %}", "--set",
         "body.load={file: load.csv, columns: {surge: push}}", "-o", "b")
-    a, b = (columns(f"{name}/probes.csv")["body_surge"][-1] for name in "ab")
+    a, b = (columns(f"{name}/probes.csv")["surge"][-1] for name in "ab")
     check(a != 0 and abs(b / a - 1) < 1e-4, f"table and harmonic: {b / a - 1:.1e}")
     # a free tank: M + m0 + sum m_n/(1 - w^2/w_n^2) = 0 has w = 7.003 rad/s for M = 100 kg, 8.372 for 2 kg
     for mass, omega in ((100, 7.003), (2, 8.372)):
@@ -107,7 +107,7 @@ def quick():
     run("check", "spring.yaml", "--set", "body={mass: 1 kg, surge: {stiffness: -5 N/m}}", text="with the moving liquid: nothing restores")
     said = run("check", "spring.yaml")
     check("surge: mass 500 kg/m, restoring" in said and "N/m/m, damping" in said and "N s/m/m\n" in said, "2-D: units per metre of width")
-    check("Displacement of the body, surge: of its centre, axes of the lab\n" in said, "columns of a shift are not about the centre")
+    check("Velocity of the body, surge: of its centre, axes of the lab\n" in said, "columns of a shift are not about the centre")
     refused("body.surge.period=0 s", "body.surge.period")
     refused("body.heave={period: 1 s, stiffness: 1 N/m}", "exclude each other")
     refused("body={mass: 1 kg}", "no degree is free")
@@ -180,7 +180,7 @@ def three():
     tank = Box(0.8, 0.24)
     omega, mass = 0.6 * tank.omega1, 160 / 0.32
     wet, dry = response(tank, omega, "surge", mass, mass * tank.omega1**2, 0.4 * mass * tank.omega1, 15 / 0.32)
-    found = harmonic(columns("three/probes.csv"), "body_surge", omega, 5 * 2 * math.pi / tank.omega1)
+    found = harmonic(columns("three/probes.csv"), "surge", omega, 5 * 2 * math.pi / tank.omega1)
     check(abs(wet / dry - 1) > 0.1, f"the liquid matters: {wet / dry:.3f} of the response without it")
     check(abs(found / wet - 1) < 0.03, f"tank on a spring in 3-D: {100 * (found / wet - 1):+.2f} % of theory, at most 3")
 
@@ -195,7 +195,7 @@ def ship():
     check(0 <= own[0] < 0.02 and abs(own[1] - 1) < 0.02, "the free wave is that of the tank")
     with open("response.yaml", "w", encoding="ascii") as out:
         out.write(f"mps: 1\nbase: {os.path.join(cases, 'anti_roll_tank.yaml')}\nset: {{output.frames: 1, output.page: 0 MB}}\n"
-                  f"sweep: {{body.roll.load.period: {' '.join(f'{1 / r:.9g}' for r in RATIOS)} T1}}\ncollect: [body_roll.harmonic]\n")
+                  f"sweep: {{body.roll.load.period: {' '.join(f'{1 / r:.9g}' for r in RATIOS)} T1}}\ncollect: [roll.harmonic]\n")
     run("sweep", "response.yaml", "-o", "ship")
     compare_ship("ship", tank, own[0])
 
@@ -203,7 +203,7 @@ def ship():
 def compare_ship(folder, tank, damping):
     """Against linear theory with the run's own damping. At w1 theory has next to no roll: there the error is one of the roll without liquid."""
     with open(f"{folder}/sweep.csv", encoding="ascii") as table:
-        found = [float(row["body_roll.harmonic[deg]"]) for row in csv.DictReader(table)]
+        found = [float(row["roll.harmonic[deg]"]) for row in csv.DictReader(table)]
     inertia, w1 = 100, tank.omega1
     for ratio, degrees in zip(RATIOS, found):
         wet, dry = (math.degrees(a) for a in response(tank, ratio * w1, "roll", inertia, inertia * w1**2, 0.2 * inertia * w1, 3, (damping, 1)))

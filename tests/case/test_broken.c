@@ -4,8 +4,9 @@
 #include "case_kit.h"
 #include "units.h"
 
-static const char *const files[] = {"box.yaml",    "polygon.yaml", "cylinder.yaml",
-                                    "sphere.yaml", "stl.yaml",     "body.yaml"};
+static const char *const files[] = {"box.yaml",     "polygon.yaml",     "cylinder.yaml",
+                                    "sphere.yaml",  "stl.yaml",         "body.yaml",
+                                    "plugins.yaml", "plugins_body.yaml"};
 enum { FILES = sizeof files / sizeof files[0] };
 
 static int32_t made;

@@ -40,7 +40,7 @@ verbs=$("$program" --help | sed -n 's/^  \([a-z]*\) .*/\1/p')
 gives "$(printf '%s\n' --help --version $verbs | sort | tr '\n' ' ' | sed 's/ $//')" mps ''
 gives "repeat report resume run" mps r
 for verb in $verbs; do
-    wanted=$({ "$program" "$verb" --help | sed -n 's/^  .* \(--[a-z]*\) .*/\1/p'; echo --help; } | sort | tr '\n' ' ')
+    wanted=$({ "$program" "$verb" --help | sed -n 's/^  .* \(--[a-z-]*\) .*/\1/p'; echo --help; } | sort | tr '\n' ' ')
     gives "${wanted% }" mps "$verb" --
 done
 gives "--out --overwrite" mps run --o

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Edges of tanks in 3-D, in summary.json: those of prisms and files, lines on cylinders and balls, none of boxes.
 # usage: test_edges.sh PROGRAM
+export LC_ALL=C # awk, printf and sort take numbers with a point
 program=$1
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT

@@ -3,7 +3,9 @@
 #include "job_fixture.h"
 #include "folder.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <sys/stat.h>
+#include <time.h>
 
 static void write_file(const char *path)
 {
@@ -79,7 +81,7 @@ static void removed(void **state)
     assert_int_equal(mkdir("run/frames", 0777), 0);
     for (size_t k = 0; k < sizeof goes / sizeof *goes; k++) write_file(goes[k]);
     for (size_t k = 0; k < sizeof stays / sizeof *stays; k++) write_file(stays[k]);
-    assert_true(mps__folder_clear(&f, error, sizeof error));
+    assert_true(mps__folder_clear(&f, NULL, error, sizeof error));
     for (size_t k = 0; k < sizeof goes / sizeof *goes; k++)
         if (is_there(".", goes[k])) fail_msg("%s is there", goes[k]);
     for (size_t k = 0; k < sizeof stays / sizeof *stays; k++)
@@ -101,7 +103,7 @@ static void not_removed(void **state)
         open_folder(&f, "held");
         mkdir("held/frames", 0777);
         assert_int_equal(mkdir(names[k], 0777), 0);
-        assert_false(mps__folder_clear(&f, error, sizeof error));
+        assert_false(mps__folder_clear(&f, NULL, error, sizeof error));
         snprintf(wanted, sizeof wanted, "--overwrite: cannot remove %s: Is a directory", names[k]);
         if (!strstr(error, wanted)) fail_msg("%s", error);
         assert_int_equal(rmdir(names[k]), 0);
@@ -109,9 +111,85 @@ static void not_removed(void **state)
     }
 }
 
+/* The lock of a run on another machine, of which this system knows nothing. */
+static void write_lock(const char *path, const char *text, long age)
+{
+    const struct timespec times[2] = {{.tv_sec = time(NULL) - age}, {.tv_sec = time(NULL) - age}};
+    FILE *file = fopen(path, "w");
+    assert_non_null(file);
+    fputs(text, file);
+    assert_int_equal(fclose(file), 0);
+    assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
+}
+
+/* Another machine holds its lock as long as it renews it; a lock of this machine that no process holds is left over. */
+static void locks_of_machines(void **state)
+{
+    char host[200] = "", own[260], error[1000] = "";
+    folder f;
+    (void)state;
+    assert_int_equal(mkdir("shared", 0777), 0);
+    write_lock("shared/run.lock", "other-machine.invalid 4711\n", 30);
+    assert_int_equal(mps__folder_open(&f, "shared", true, error, sizeof error), MPS_E_BUSY);
+    if (!strstr(error, "process 4711 on other-machine.invalid")) fail_msg("%s", error);
+    assert_true(is_there("shared", "run.lock"));
+    write_lock("shared/run.lock", "other-machine.invalid 4711\n", 3600);
+    open_folder(&f, "shared");
+    assert_int_equal(gethostname(host, sizeof host - 1), 0);
+    snprintf(own, sizeof own, "%s %ld\n", host, (long)getpid());
+    assert_string_equal(text_of("shared", "run.lock"), own);
+    /* a run renews it */
+    write_lock("shared/run.lock", own, 3600);
+    mps__folder_renew(&f);
+    struct stat s;
+    assert_int_equal(stat("shared/run.lock", &s), 0);
+    assert_true(difftime(time(NULL), s.st_mtime) < 600);
+    mps__folder_close(&f);
+    snprintf(own, sizeof own, "%s 1\n", host);
+    write_lock("shared/run.lock", own, 1);
+    open_folder(&f, "shared");
+    mps__folder_close(&f);
+    write_lock("shared/run.lock", "", 1); /* of an earlier version */
+    open_folder(&f, "shared");
+    mps__folder_close(&f);
+}
+
+/* Nothing behind a link is removed or written. */
+static void links_are_refused(void **state)
+{
+    char error[1000] = "";
+    folder f;
+    (void)state;
+    assert_int_equal(mkdir("kept", 0777), 0);
+    write_file("kept/frames_000001.vtp");
+    write_file("kept/precious");
+    open_folder(&f, "linked");
+    assert_int_equal(symlink("../kept", "linked/frames"), 0);
+    write_file("linked/probes.csv");
+    assert_false(mps__folder_clear(&f, NULL, error, sizeof error));
+    if (!strstr(error, "linked/frames is a link")) fail_msg("%s", error);
+    assert_true(is_there("kept", "frames_000001.vtp") && is_there("linked", "probes.csv"));
+    assert_false(mps__folder_has_no_links(&f, error, sizeof error));
+    assert_int_equal(unlink("linked/frames"), 0);
+    assert_true(mps__folder_has_no_links(&f, error, sizeof error));
+    static const char *const names[] = {"linked/summary.json", "linked/picture_2.png",
+                                        "linked/steps.csv"};
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        assert_int_equal(symlink("../kept/precious", names[k]), 0);
+        assert_false(mps__folder_has_no_links(&f, error, sizeof error));
+        if (!strstr(error, names[k])) fail_msg("%s", error);
+        assert_true(mps__folder_clear(&f, NULL, error, sizeof error)); /* the link itself */
+        assert_false(is_there(".", names[k]));
+    }
+    assert_true(is_there("kept", "precious"));
+    mps__folder_close(&f);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(no_folders), cmocka_unit_test(advice),
-                                       cmocka_unit_test(removed), cmocka_unit_test(not_removed)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(locks_of_machines), cmocka_unit_test(links_are_refused),
+        cmocka_unit_test(no_folders),        cmocka_unit_test(advice),
+        cmocka_unit_test(removed),           cmocka_unit_test(not_removed)};
     return cmocka_run_group_tests(tests, enter_folder, leave_folder);
 }

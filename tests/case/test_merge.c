@@ -240,9 +240,9 @@ static void pages(void **state)
     (void)state;
     write_file(folder, "page.html",
                "<html>\n<body><p>text</p>\n<script type=\"text/yaml\" id=\"case\">" CASE
-               "title: \"<\\/b> <\\!-- x\"\n</script></body></html>\n");
+               "title: \"<\\/b> <\\!-- <\\script>\"\n</script></body></html>\n");
     assert_int_equal(read_in(folder, "page.html", &c), MPS_OK);
-    has(c, "title: \"</b> <!-- x\"\n");
+    has(c, "title: \"</b> <!-- <script>\"\n");
     mps_case_destroy(c);
     write_file(folder, "page.html",
                "<html>\n\n<script type=\"text/yaml\" id=\"case\">mps: 1\ndpp: 3 m\n</script>\n");

@@ -118,7 +118,8 @@ static void rules(void **state)
 {
     (void)state;
     said("dp: 4 mm\n" BODY, NULL, "key 'mps' is missing, e.g. 'mps: 1'");
-    said("mps: 2\ndp: 4 mm\n" BODY, NULL, "mps: '2' is out of its range: 1 .. 1");
+    said("mps: 2\ndp: 4 mm\n" BODY, NULL,
+         "mps: version 2 is out of its range: this program reads version 1");
     said(HEAD "tank: {size: 1 1 m, polygon: [0 0 m, 1 0 m, 1 1 m]}\n", NULL,
          "tank: 'size' and 'polygon' exclude each other; remove one");
     said(HEAD "tank: {chamfer: {}}\n", NULL, "one of these keys is missing: size, polygon");
@@ -128,7 +129,7 @@ static void rules(void **state)
          "motion.roll: one of these keys is missing: omega, period");
     said(HEAD BODY "reference: {a: {times: 1 2 s}}\n", NULL, "'values' is missing beside it");
     said(HEAD BODY "solids: {pump: {stl: cube.stl}}\n", NULL, "'unit' is missing beside it");
-    said(HEAD BODY "sensors: {1st: {wall: 0 0 m}}\n", NULL, "a letter is wanted");
+    said(HEAD BODY "sensors: {1st: {wall: 0 0 m}}\n", NULL, "a letter a to z, A to Z is wanted");
     said(HEAD BODY "sensors: {a.b: {wall: 0 0 m}}\n", NULL, "name 'a.b'");
     said(HEAD "tank: {size: 1 1 m}\nfill: {water: {depth: 1 m}}\n", NULL, "a list of fluids");
     said(HEAD "tank: {size: 1 1 m}\nfill: [{water: rest, air: rest}]\n", NULL, "one fluid");

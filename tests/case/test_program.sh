@@ -3,25 +3,7 @@
 # The program mps: each verb, exit codes, an interrupted run.
 # usage: test_program.sh PROGRAM CASES
 program=$1 cases=$2 script=$(realpath "$0")
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-failed=0
-
-fail() {
-    echo "FAILED: $*"
-    failed=1
-}
-
-# wanted exit code, wanted text, command ..
-expect() {
-    local code=$1 text=$2
-    shift 2
-    "$@" > log 2>&1
-    local got=$?
-    [ $got -eq "$code" ] || fail "exit $got, not $code: $*: $(tail -3 log)"
-    [ -z "$text" ] || grep -qF -- "$text" log || fail "no '$text': $*: $(head -5 log)"
-}
+. "$(dirname "$0")/program_kit.sh"
 
 expect 2 "usage: mps VERB" "$program"
 expect 0 "usage: mps VERB" "$program" --help
@@ -98,7 +80,7 @@ expect 0 "solids.*.holes.pitch" "$program" list keys holes
 [ "$(grep -c '^[a-z]' log)" -eq 3 ] || fail "list keys holes: $(cat log)"
 expect 0 "motion.roll|pitch|yaw.jonswap" "$program" list keys roll
 grep -q "^sensors" log && fail "list keys roll: sensors"
-expect 2 "no key has the name 'hole'" "$program" list keys hole
+expect 2 "xyzzy" "$program" list keys xyzzy
 expect 2 "one argument too many" "$program" list cases tank
 "$program" schema > schema.json || fail "schema"
 grep -q "2020-12" schema.json || fail "schema.json"
@@ -116,7 +98,7 @@ cmp run/frames/frames_000002.vtp once_more/frames/frames_000002.vtp || fail "the
 rm run/report.html
 expect 0 "run/report.html: " "$program" report run
 [ -s run/report.html ] || fail "no report.html by 'mps report'"
-expect 2 "needs the folder of a finished run" "$program" report nowhere
+expect 2 "needs the folder of a run" "$program" report nowhere
 expect 2 "page_bytes must be" "$program" run tank.yaml --set "output.page=100 kB" -o none -q
 expect 2 "until" "$program" run tank.yaml --set run.until=5 -o none -q
 [ -e none ] && fail "a wrong case made a folder"
@@ -175,21 +157,36 @@ expect 2 "is no folder" "$program" stats pulses/probes.csv
 
 # compare: a sine of 1 s that is 0.1 s later differs by -2 sin(0.1 pi) cos(2 pi (t - 0.05)): rms from 0.205 to 41 s, of straight lines
 expect 0 "shifted against pulses" "$program" compare pulses shifted pulses/probes.csv
-awk '/^  eta/ { n++; ok += $3 == "m" && $15 == "s" && $17 == "deg" && (n == 2 ? $2 == 0 && $14 == 0 : $2 == 0.436 && $14 == 0.1 && $16 == 36) }
+awk '/^  eta/ { n++; ok += $3 == "m" && $15 == "s" && $18 == "deg" && (n == 2 ? $2 == 0 && $14 == 0 : $2 == 0.436 && $14 == 0.1 && $17 == 36) }
     END { exit !(n == 3 && ok == 3) }' log || fail "compare: $(grep eta log)"
-grep -q "P1.*is in kPa there" log || fail "compare: units"
+grep -q "^  P1 .* Pa " log || fail "compare: units: $(grep P1 log)"
 grep -q "pulses against pulses/probes.csv" log || fail "compare: no reference"
+# a table of others: another name, another unit, times in ms; a part of the time
+awk -F, 'NR == 1 { print "t[ms],pressure[kPa]"; next } $1 < 20 { printf "%.15g,%.15g\n", 1000 * $1, $2 / 1000 }' pulses/probes.csv > other.csv
+expect 2 "no column can be compared" "$program" compare pulses other.csv
+grep -q -- "--map COLUMN=NAME says" log && grep -q "other.csv has pressure\[kPa\]" log || fail "compare: no help: $(cat log)"
+expect 0 "pulses against other.csv" "$program" compare pulses other.csv --map P1=pressure
+awk '/^  P1/ { exit !($2 < 1e-12 && $3 == "kPa") }' log || fail "compare --map: $(grep P1 log)"
+expect 2 "has no column 'P7'" "$program" compare pulses other.csv --map P7=pressure
+expect 2 "COLUMN=NAME is wanted" "$program" compare pulses other.csv --map pressure
+# known values of the case are the default
+expect 2 "has no 'reference'" "$program" compare pulses
+mkdir known
+cp pulses/probes.csv known/
+printf '{\n  "t_end": 41,\n  "references": [{"label": "measured", "unit": "m", "column": "eta", "line": false, "points": [[1.1, 0], [2.35, 1], [3.6, 0], [99, 3]]}]}\n' > known/summary.json
+expect 0 "known against measured" "$program" compare known
+grep -q "at 3 of 4 points" log || fail "compare: points: $(cat log)"
 expect 0 "P_left" "$program" compare run again
 awk '/^  P_left/ { exit !($2 == 0 && $3 == "Pa" && $5 ~ /^k?Pa$/) }' log || fail "the same run differs"
-expect 2 "is missing" "$program" compare run
+expect 2 "is missing" "$program" compare
 expect 2 "no such folder" "$program" compare run nowhere
 expect 2 "the last argument" "$program" compare run/probes.csv run
 expect 2 "no column can be compared" "$program" compare run shifted
 
 # slots of a baffle on the page
 expect 0 "" "$program" run lng.yaml --set "run.until=5 ms" --set output.frames=0 -o slots -q
-for piece in "0], [0.475, 0.0375" "0.0875], [0.475, 0.1625" "0.2125], [0.475, 0.25"; do
-    grep -qF "[[0.475, $piece]]" slots/summary.json || fail "no part of the baffle: $piece"
+for piece in "0], [0.48, 0.04]" "0.09], [0.48, 0.16]" "0.21], [0.48, 0.25]"; do
+    grep -qF "[[0.48, $piece]" slots/summary.json || fail "no part of the baffle: $piece"
 done
 
 # info
@@ -253,11 +250,12 @@ expect 2 "no column of probes.csv is 'P_no'" "$program" sweep sweep.yaml --set "
 [ -e no_column/002 ] && fail "an unknown column did not end the sweep"
 expect 0 "run 4 of 4: motion.surge.period=1 T1 motion.surge.amplitude=20 mm" "$program" sweep sweep.yaml -o swept
 [ "$(wc -l < swept/sweep.csv)" -eq 5 ] || fail "sweep.csv: $(cat swept/sweep.csv)"
-head -1 swept/sweep.csv | grep -q '^run,motion.surge.period,motion.surge.amplitude,exit,P_left.max\[Pa\],F_x.last\[N/m\],' ||
+head -1 swept/sweep.csv | grep -q '^run,motion.surge.period,motion.surge.amplitude,motion.surge.period.si\[s\],motion.surge.amplitude.si\[m\],exit,P_left.max\[Pa\],F_x.last\[N/m\],' ||
     fail "names of sweep.csv: $(head -1 swept/sweep.csv)"
-most=$(awk -F, 'NR > 1 && (NR == 2 || $2 > m) { m = $2 } END { printf "%.9g", m }' swept/003/probes.csv)
-last=$(awk -F, 'END { printf "%.9g", $5 }' swept/003/probes.csv)
-grep -q "^003,1 T1,10 mm,0,$most,$last," swept/sweep.csv || fail "not $most, $last: $(grep ^003 swept/sweep.csv)"
+most=$(awk -F, 'NR > 1 && (NR == 2 || $3 > m) { m = $3 } END { printf "%.9g", m }' swept/003/probes.csv)
+last=$(awk -F, 'END { printf "%.9g", $6 }' swept/003/probes.csv)
+T1=$(sed -n 's/.*"T1", "value": "\([.0-9]*\) s.*/\1/p' swept/003/summary.json)
+grep -q "^003,1 T1,10 mm,$T1,0.01,0,$most,$last," swept/sweep.csv || fail "not $most, $last: $(grep ^003 swept/sweep.csv)"
 expect 0 "" "$program" run single.yaml --set "motion.surge.period=1 T1" -o alone -q
 cmp alone/probes.csv swept/003/probes.csv || fail "a run of a sweep has other bytes than a run alone"
 # p3h and harmonic: those of 'mps stats', and of a fit of mean + a sin + b cos of its own
@@ -273,13 +271,13 @@ head -1 fitted/sweep.csv | grep -qF 'exit,P_left.p3h[Pa],P_left.harmonic[Pa],F_x
 for run in 001 002; do
     expect 0 "" "$program" stats fitted/$run P_left
     wanted=$(sed -n 's/.*"weibull".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
-    [ -n "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $4 }' fitted/sweep.csv)" = "$wanted" ] ||
+    [ -n "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $5 }' fitted/sweep.csv)" = "$wanted" ] ||
         fail "p3h of run $run: not '$wanted': $(grep ^$run fitted/sweep.csv)"
     pareto=$(sed -n 's/.*"pareto".*"full_scale": \([-+.0-9e]*\),.*/\1/p' fitted/$run/statistics.json)
     [ -n "$pareto" ] && [ "$pareto" != "$wanted" ] && [ "$(awk -F, -v run=$run '$1 == run { print $NF }' fitted/sweep.csv)" = "$pareto" ] ||
         fail "p3h_pareto of run $run: not '$pareto': $(grep ^$run fitted/sweep.csv)"
     omega=$(sed -n 's/.*"motion omega", "value": "\([.0-9]*\) rad.*/\1/p' fitted/$run/summary.json)
-    for column in P_left:5 F_x:6; do
+    for column in P_left:6 F_x:7; do
         awk -F, -v w="$omega" -v name="${column%%:*}" -v got="$(awk -F, -v run=$run -v k="${column#*:}" '$1 == run { print $k }' fitted/sweep.csv)" '
             NR == 1 { for (k = 1; k <= NF; k++) if (index($k, name "[") == 1) at = k; next }
             $1 >= 1 && $1 <= 6 && $at != "nan" {
@@ -297,7 +295,7 @@ done
 expect 2 "is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h]" --set "run.until=0.05 s" -o no_pressure -q
 expect 2 "'eta_left.p3h_pareto': column 'eta_left' is no pressure" "$program" sweep fitted.yaml --set "collect=[eta_left.p3h_pareto]" --set "run.until=0.05 s" -o no_pressure --overwrite -q
 expect 0 "" "$program" sweep fitted.yaml --set "collect=[P_left.p3h, F.harmonic]" --set "run.until=0.05 s" --set "impacts.from=0 s" -o short -q
-grep -q "^001,10 mm,0,nan,nan,nan,nan$" short/sweep.csv || fail "sweep.csv of short runs: $(cat short/sweep.csv)"
+grep -q "^001,10 mm,0.01,0,nan,nan,nan,nan$" short/sweep.csv || fail "sweep.csv of short runs: $(cat short/sweep.csv)"
 cp swept/sweep.csv before.csv
 rm -r swept/002
 expect 0 "swept/001: is done already" "$program" sweep sweep.yaml -o swept -j 1
@@ -305,7 +303,7 @@ cmp before.csv swept/sweep.csv || fail "a sweep made whole again has another tab
 expect 2 "run of another case" "$program" sweep sweep.yaml --set "run.until=0.06 s" -o swept -q
 sed 's/^sweep.*/sweep: {motion.surge.amplitude: 1e-6 5 m}/' sweep.yaml > bad.yaml
 expect 3 "bad/002 failed, exit code 3" "$program" sweep bad.yaml --set "run.dt=20 ms" --set "run.until=0.6 s" -o bad -q
-grep -q "^002,5 m,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $(cat bad/sweep.csv)"
+grep -q "^002,5 m,5,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $(cat bad/sweep.csv)"
 # the last 20 steps share what is left of a run; before, they have the factor. Where whole cells leave one dp, the runs differ by their steps: each motion, fixed steps and none
 repeated() {
     expect 0 "" "$program" repeat $1.yaml --set "run.until=0.2 s" -n 3 -o $1 -q

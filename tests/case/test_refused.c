@@ -23,9 +23,9 @@ static void objects(void **state)
     built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {lng: {density: 450 kg/m3, viscosity: 0.1 "
                       "mPa s}}\nfill: [{LNG: {depth: 0.3 m}}]\n" END,
                   5, "no fluid has the name 'LNG'; did you mean 'lng'?");
-    built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {oil: {density: 900 kg/m3}}\nfill: [{oil: "
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {oil: {viscosity: 1 mPa s}}\nfill: [{oil: "
                       "{depth: 0.3 m}}]\n" END,
-                  4, "fluids.oil|density and viscosity are needed");
+                  4, "fluids.oil: 'density' is missing");
     built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {box: [2 2 m, 3 3 m]}}]\n" END, 4,
                   "water: ");
     built_refused(TOP BOX "model: mmps\n" END, 5, "'mmps' is for several fluids|air: rest");
@@ -44,6 +44,58 @@ static void objects(void **state)
         6, "solids.baffle.holes|slots of 0.016 m with 0.024 m between|at least 2 dp wide, 0.04 m");
     built_refused(TOP BOX "solids:\n  ball: {sphere: {centre: 5 5 m, radius: 0.1 m}}\n" END, 6,
                   "ball: ");
+}
+
+/* Sides that cross, touch or lie on each other, in tanks, solids and fills. */
+static void crossed_polygons(void **state)
+{
+    (void)state;
+    built_refused(TOP "tank: {polygon: [0 0 m, 0.8 0.5 m, 0.8 0 m, 0 0.5 m]}\nfill: [{water: "
+                      "{depth: 0.2 m}}]\n" END,
+                  3,
+                  "tank.polygon: |from (0, 0) to (0.8, 0.5) m|from (0.8, 0) to (0, 0.5) m|"
+                  "at (0.4, 0.25) m|order");
+    built_refused(TOP "tank:\n  polygon:\n    - 0 0 m\n    - 1 0 m\n    - 1 1 m\n    - 0.5 0 m\n"
+                      "    - 0 1 m\nfill: [{water: {depth: 0.2 m}}]\n" END,
+                  5, "tank.polygon: |at (0.5, 0) m");
+    built_refused(TOP "tank: {polygon: [0 0 m, 1 0 m, 0.4 0 m, 0.4 1 m]}\nfill: [{water: "
+                      "{depth: 0.2 m}}]\n" END,
+                  3, "tank.polygon: |meets the side");
+    built_refused(TOP "tank: {polygon: [0 0 m, 1 0 m, 1 0 m, 0 0 m]}\nfill: [{water: "
+                      "{depth: 0.2 m}}]\n" END,
+                  3, "tank.polygon: 2 of 4 points differ");
+    built_refused(TOP BOX "solids:\n  s: {prism: [0.2 0 m, 0.6 0.3 m, 0.6 0 m, 0.2 0.3 m]}\n" END,
+                  6, "solids.s.prism: |meets the side");
+    built_refused(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {polygon: [0 0 m, 1 0.5 m, 1 0 m, 0 "
+                      "0.5 m]}}]\n" END,
+                  4, "polygon: |meets the side");
+}
+
+/* The first point again at the end closes a polygon. */
+static void closed_polygon(void **state)
+{
+    built t;
+    (void)state;
+    built_make(&t,
+               TOP "tank: {polygon: [0 0 m, 1 0 m, 1 0.5 m, 0 0.5 m, 0 0 m]}\nfill: [{water: "
+                   "{depth: 0.2 m}}]\n" END,
+               NULL);
+    assert_int_equal(t.b.tank.form.points, 4);
+    built_free(&t);
+}
+
+/* Liquid beyond the domain is lost in the first step: a warning, and an error if none is left. */
+static void domain_cuts(void **state)
+{
+    built t;
+    (void)state;
+    built_make(&t, TOP "domain: [0 0 m, 1 0.25 m]\n" BOX END, NULL);
+    assert_true(kit_has(t.c, 3, 9, "of 735 particles of the fill are outside|first step"));
+    built_free(&t);
+    built_make(&t, TOP "domain: [0 0 m, 1 0.6 m]\n" BOX END, NULL);
+    assert_int_equal(mps_case_message_count(t.c), 0);
+    built_free(&t);
+    built_refused(TOP "domain: [2 0 m, 3 0.6 m]\n" BOX END, 3, "735 of 735 particles");
 }
 
 /* Tanks, fills and solids that are not whole, or are two at once. */
@@ -185,10 +237,10 @@ static void tables(void **state)
     static const char axes[] = "axes: x forward, y port, z up";
     (void)state;
     table_refused("t[s],roll[deg]\n0,1\n1,2\n2,abc\n3,4\n", axes,
-                  ":4: column 'roll': 'abc' is not a number");
+                  ":4: column 'roll': 'abc' is no number");
     table_refused("t[s],roll[deg]\n0,1\n1,2,3\n", axes,
-                  ":3: more numbers than the header has names, 2");
-    table_refused("t[s],roll[deg]\n0,1\n1\n", axes, ":3: column 'roll': ''");
+                  ":3: has 3 values, the line of names has 2");
+    table_refused("t[s],roll[deg]\n0,1\n1\n", axes, ":3: has 1 value, the line of names has 2");
     table_refused("t[s],roll[deg]\n0,1\n2,2\n2,3\n", axes,
                   ":4: the time 2 s is not later than that before it, 2 s");
     table_refused("t[s],roll[deg]\n0,1\n0.5,2\n", axes,
@@ -302,9 +354,11 @@ static void references(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(shapes),       cmocka_unit_test(rows_of_sensors),
-        cmocka_unit_test(references),   cmocka_unit_test(objects),
-        cmocka_unit_test(motions),      cmocka_unit_test(tables),
-        cmocka_unit_test(tables_in_2d), cmocka_unit_test(sensors)};
+        cmocka_unit_test(shapes),           cmocka_unit_test(rows_of_sensors),
+        cmocka_unit_test(references),       cmocka_unit_test(objects),
+        cmocka_unit_test(crossed_polygons), cmocka_unit_test(closed_polygon),
+        cmocka_unit_test(domain_cuts),      cmocka_unit_test(motions),
+        cmocka_unit_test(tables),           cmocka_unit_test(tables_in_2d),
+        cmocka_unit_test(sensors)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # A driver in C and its case file give the same bytes of probes.csv and of frames: the language can say all that a driver does.
 # usage: test_same_bytes.sh DRIVERS PROGRAM CASES [NAME ..]
+export LC_ALL=C # awk, printf and sort take numbers with a point
 drivers=$1 program=$2 cases=$3
 shift 3
 work=$(mktemp -d)

@@ -104,7 +104,7 @@ static void space(void **state)
         "  top: {row: [1 0.1 0.3 m, 1 0.4 0.3 m], cells: 3}\n"
         "  mean: {row: [1 0.1 0.3 m, 1 0.4 0.3 m], cells: 3, take: mean}\n"
         "  where: {row: [1 0.1 0.3 m, 1 0.4 0.3 m], cells: 3, take: place}\n"
-        "  eta: {gauge: -50 50 mm}\n"
+        "  eta: {gauge: 950 50 mm}\n"
         "  up: {gauge: 0.2 0.1 0.3 m, level: 0.4 m}\n"
         "  F: {force: tank, about: 0.4 0 0.3 m}\n"
         "  load: {force: tank, about: 0.4 0 0.3 m, axes: ship}\n"

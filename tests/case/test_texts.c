@@ -120,9 +120,11 @@ static void numbers(void **state)
 static void kinds(void **state)
 {
     (void)state;
-    kit_refused(HEAD "motion: {roll: []}\n", 3, 16, "a map of keys, or a list of such|not a list");
+    kit_refused(HEAD "motion: {roll: []}\n", 3, 16,
+                "a map of keys, or a list of such|not an empty list");
     kit_refused(HEAD "sensors: 3\n", 3, 10, "sensors: a map of names is wanted, not a text");
-    kit_refused(HEAD "sensors: {\"\": {wall: 0 0 m}}\n", 3, 11, "name '': a letter is wanted");
+    kit_refused(HEAD "sensors: {\"\": {wall: 0 0 m}}\n", 3, 11,
+                "name '': a letter a to z, A to Z is wanted");
     /* of one key elsewhere the message tells where; not of one at the top, nor of several */
     kit_refused(HEAD "output: {gravity: 1 m/s2}\n", 3, 10, "unknown key 'output.gravity'");
     kit_refused(HEAD "output: {radius: 1 m}\n", 3, 10, "unknown key 'output.radius'");
@@ -144,7 +146,7 @@ static void kinds(void **state)
     kit_refused(HEAD "settings: {qq.zz: 3}\n", 3, 12, "no setting 'qq.zz'; settings are slot.key");
     kit_refused(HEAD "motion: {start: rset}\n", 3, 17, "did you mean 'rest'?");
     kit_refused(HEAD "sensors: {a23456789a123456789b123456789c123456789: {wall: 0 0 m}}\n", 3, 11,
-                "a letter is wanted");
+                "a letter a to z, A to Z is wanted");
     kit_refused(HEAD "tank: {stl: [a]}\n", 3, 13, "the name of a file");
     kit_refused(HEAD "tank: {size: 1 1 m, a234567890b234567890c234567890d234567890e: 1}\n", 3, 21,
                 "unknown key");
@@ -296,7 +298,7 @@ static void large_files(void **state)
     assert_true(kit_has(c, 0, 0, "it is larger than 1 MB; a case file is a text"));
     mps_case_destroy(c);
     write_file(path, sizeof path, folder, "page.HTM",
-               "<script type=\"text/yaml\" id=\"case\">" CASE "title: \"a<\\\\b\"\n</script>\n");
+               "<script type=\"text/yaml\" id=\"case\">" CASE "title: \"a<\\\\\\b\"\n</script>\n");
     assert_int_equal(mps_case_read(path, 0, NULL, &c), MPS_OK);
     has(c, "title: \"a<\\\\b\"\n");
     mps_case_destroy(c);

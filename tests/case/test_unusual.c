@@ -101,13 +101,15 @@ static void ramp_of_tables(void **state)
     built t;
     (void)state;
     write_table(path, sizeof path,
-                "time[s],surge[m]\n-2,0.5\n-1,0.5\n0,0.5\n1,0.5\n2,0.5\n3,0.5\n");
+                "time[s],roll[rad]\n-2,0.5\n-1,0.5\n0,0.5\n1,0.5\n2,0.5\n3,0.5\n");
     snprintf(text, sizeof text,
              TOP BOX "motion: {file: %s, from: 0 s, ramp: 2 s}\nrun: {until: 3 s}\n", path);
     built_make(&t, text, NULL);
-    static const double wanted[] = {0, 0, 0, 0.25, 0.5, 0.5}; /* 10 x^3 - 15 x^4 + 6 x^5 of 0.5 m */
+    static const double wanted[] = {0,    0,   0,
+                                    0.25, 0.5, 0.5}; /* 10 x^3 - 15 x^4 + 6 x^5 of 0.5 rad */
     assert_int_equal(t.b.motion->rows, 6);
-    for (int i = 0; i < 6; i++) same_number(t.b.motion->column[6 * i], wanted[i], 1e-12);
+    for (int i = 0; i < 6; i++)
+        same_number(t.b.motion->column[6 * i + MPS_SHIP_ROLL], wanted[i], 1e-12);
     built_free(&t);
     unlink(path);
 }
@@ -180,6 +182,20 @@ static void check_tells(const char *text, const char *words, const char *more)
     mps_case_destroy(c);
 }
 
+/* A case whose run fails in its first steps has no check either. */
+static void check_refuses(const char *text, const char *words, const char *more)
+{
+    mps_case *c = NULL;
+    char *told = NULL, *sketch = NULL;
+    if (kit_read(text, NULL, &c) != MPS_OK) fail_msg("%s", kit_messages(c));
+    assert_int_equal(mps_case_check(c, &told, &sketch), MPS_E_ARG);
+    assert_true(!told && !sketch);
+    char *all = kit_messages(c);
+    if (!strstr(all, words) || !strstr(all, more)) fail_msg("wanted: %s, %s\n%s", words, more, all);
+    free(all);
+    mps_case_destroy(c);
+}
+
 static void checks(void **state)
 {
     char path[600], text[1600];
@@ -188,10 +204,13 @@ static void checks(void **state)
                 "run: {until: 1 s}\n",
                 "dp 500 um", NULL);
     check_tells(TOP BOX "run: {until: 1e7 s}\n", " h of wall clock: calm to violent", NULL);
-    check_tells(TOP "tank: {size: 1 0.6 m}\n"
-                    "fill: [{water: {depth: 0.3 m, start: {velocity: 1 0 m/s}}}]\n"
-                    "run: {until: 1 s, speed_limit: 1 mm/s}\n",
-                "warning   the first steps fail: ", "allowed");
+    check_refuses(TOP "tank: {size: 1 0.6 m}\n"
+                      "fill: [{water: {depth: 0.3 m, start: {velocity: 1 0 m/s}}}]\n"
+                      "run: {until: 1 s, speed_limit: 1 mm/s}\n",
+                  "the first steps fail: ", "allowed");
+    check_refuses(TOP "tank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
+                      "model: imps.paper\nbody: {mass: 9 kg, surge: {stiffness: 1 kN/m}}\n" END,
+                  "the first steps fail: ", "'source.volume'");
     write_table(path, sizeof path, "time[s],roll[deg]\n0,0\n1,1\n3,0\n");
     snprintf(text, sizeof text, TOP BOX "motion: {file: %s}\nrun: {until: 3 s}\n", path);
     check_tells(text, "3 rows of ", "1 to 2 s apart");
@@ -242,7 +261,7 @@ static void fluids(void **state)
                   5, "no fluid has the name 'lngb'; did you mean 'lnga'?");
     built_refused(TOP "tank: {size: 1 0.6 m}\nfluids: {oil: {viscosity: 1 mPa s}}\n"
                       "fill: [{oil: {depth: 0.3 m}}]\n" END,
-                  4, "fluids.oil|density and viscosity are needed");
+                  4, "fluids.oil|'density' is missing");
     /* of one density in one line: the first of the line is the first phase */
     check_tells(TOP "tank: {size: 1 0.6 m}\n"
                     "fluids: {b: {density: 900 kg/m3, viscosity: 2 mm2/s, tension: 0 N/m}, "

@@ -4,7 +4,7 @@
 # usage: tests/cases/test_folder.sh FOLDER_OF_DRIVERS
 set -uo pipefail
 . "$(dirname "$0")/drivers.sh"
-tank=(static_tank --dp 0.04 --probe-dt 0.002 --t-end 0.05 --frames 2)
+tank=(static_tank --dp 0.04 --probe-dt 0.002 --t-end 0.3 --frames 2)
 
 says() { # texts that must be in the log...
     local text
@@ -28,7 +28,7 @@ unchanged '--resume and --overwrite exclude each other' run --resume --overwrite
 runs 0 "${tank[@]}" --out run --resume
 for what in probes.csv steps.csv frames.pvd summary.json; do
     mkdir -p "some_$what" && cp "run/$what" "some_$what"
-    unchanged "there is an earlier run ($what); it has no checkpoint" "some_$what"
+    unchanged "there is an earlier run ($what); --resume begins it again, since it has no checkpoint" "some_$what"
 done
 mkdir -p mine/frames && touch mine/notes.txt mine/picture_x.png mine/plot_mine.svg mine/frames/frames_1.vtp
 runs 0 "${tank[@]}" --out mine # nothing of a run
@@ -36,7 +36,7 @@ runs 0 "${tank[@]}" --checkpoint 1 --pictures 0.01,0.02,0.03,0.04 --out mine --o
 cp mine/probes.csv whole.csv
 runs 0 static_tank --dp 0.04 --probe-dt 0.002 --t-end 0.02 --frames 0 --pictures 0.01 --no-report --out mine --overwrite
 for what in notes.txt picture_x.png plot_mine.svg frames/frames_1.vtp; do [ -e "mine/$what" ] || fail "--overwrite removes $what"; done
-for what in checkpoint.mps frames.pvd frames/frames_000000.vtp picture_2.png report.html run.lock; do
+for what in frames.pvd frames/frames_000000.vtp picture_2.png report.html run.lock; do
     [ ! -e "mine/$what" ] || fail "--overwrite leaves $what"
 done
 runs 2 "${tank[@]}" --out mine --overwrite --use bogus.model # refused for another reason: nothing is removed

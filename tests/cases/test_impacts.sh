@@ -8,6 +8,7 @@
 # Pressures and forces are those of single steps, impulses and means of the driver itself. Without load.reaction flat, film and jet fail, without
 # separation.void floor and box_3d.
 # usage: tests/cases/test_impacts.sh FOLDER_OF_DRIVERS
+export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 . "$(dirname "$0")/drivers.sh"
 

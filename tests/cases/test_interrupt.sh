@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs that are stopped by a signal: a checkpoint, rows that are complete up to it and go on without gap or double; progress in a batch log.
 # usage: tests/cases/test_interrupt.sh FOLDER_OF_DRIVERS
+export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 [ -n "${HUP_ENDS:-}" ] || HUP_ENDS=1 exec env --default-signal=HUP bash "$0" "$@" # also under nohup
 . "$(dirname "$0")/drivers.sh"

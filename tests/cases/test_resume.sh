@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 # Checkpoints of the drivers: a run that was interrupted or killed and goes on leaves the same bytes as one that ran through.
 # usage: tests/cases/test_resume.sh FOLDER_OF_DRIVERS
+export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 . "$(dirname "$0")/drivers.sh"
 
@@ -30,6 +31,7 @@ same() { # folder, folder
     for file in probes.csv momentum.csv steps.csv; do cmp "$1/$file" "$2/$file" || fail "$2/$file is not that of $1"; done
     [ ! -e "$1/trace.csv" ] || cmp "$1/trace.csv" "$2/trace.csv" || fail "$2/trace.csv is not that of $1"
     for file in "$1"/picture_*.png; do cmp "$file" "$2/${file#*/}" || fail "$2/${file#*/} is not that of $1"; done
+    [ ! -e "$1/peaks.pvd" ] || { cmp "$1/peaks.pvd" "$2/peaks.pvd" && diff -rq "$1/peaks" "$2/peaks"; } || fail "$2 has other frames about peaks than $1"
 }
 
 # All frames the series names are there and no other, at increasing times.
@@ -46,7 +48,7 @@ goes_on() { # name, interval of checkpoints, of frames, driver, options...
     first=$(awk "BEGIN {print $interval / 2}")
     local endless=(--t-end "$(awk "BEGIN {print 50000 * $frames}")" --frames 50000 --checkpoint "$interval" --pictures "$first")
     stopped INT 130 "$name.int" "$@" "${endless[@]}"
-    grep -q 'go on with --resume' log || fail "$*: Ctrl-C does not say how to go on: $(cat log)"
+    grep -q -- '--resume with the same options continues' log || fail "$*: Ctrl-C does not say how to go on: $(cat log)"
     stopped KILL 137 "$name.kill" "$@" "${endless[@]}"
     end=$(later "$(awk "BEGIN {print 4 * $frames}")" "$name.int" "$name.kill")
     second=$(awk "BEGIN {print $end - 2 * $frames}")
@@ -70,36 +72,35 @@ goes_on air 0.02 0.005 sloshing_high_fill --model mmps --dp 0.05 --sensor-averag
 goes_on impact 0.02 0.002 impact --case flat --dp 0.02 --cfl 0.1
 goes_on solid 0.04 0.006 sloshing_baffle_3d --dp 0.025
 
-# an end with a checkpoint, and a later end
+# an end, and a later end
 tank=(static_tank --dp 0.04 --probe-dt 0.002)
-runs 0 "${tank[@]}" --t-end 0.05 --frames 2 --checkpoint 1 --out longer
-cp longer/probes.csv shorter.csv
-cp longer/steps.csv shorter_steps.csv
-refused 'later than --t-end 0.04' longer "${tank[@]}" --t-end 0.04
-refused 'probes.csv: has rows at other times; --probe-dt' longer static_tank --dp 0.04 --probe-dt 0.001 --t-end 0.1
-refused 'dp 0.04' longer static_tank --dp 0.05 --probe-dt 0.002 --t-end 0.1
-refused 'distance 0.5' longer "${tank[@]}" --t-end 0.1 --set collision.distance=0.5
-refused 'must be set up by the same calls' longer sloshing_surge --dp 0.04 --probe-dt 0.002 --t-end 0.1
-runs 0 "${tank[@]}" --t-end 0.1 --frames 4 --resume --checkpoint 1 --out longer
-cmp -n "$(stat -c %s shorter.csv)" shorter.csv longer/probes.csv || fail "a run that is extended has other rows at its beginning"
-[ "$(wc -l <longer/probes.csv)" = 52 ] || fail "an extended run has $(wc -l <longer/probes.csv) lines instead of 52"
-grep -q '"t_resumed": 0.05' longer/summary.json || fail "an extended run's summary: $(grep t_resumed longer/summary.json)"
+runs 0 "${tank[@]}" --t-end 0.2 --frames 2 --pictures 0.01 --out longer
+refused 'later than --t-end, 0.04 s' longer "${tank[@]}" --t-end 0.04
+refused 'probes.csv: has rows at other times; their rate must be what it was' longer static_tank --dp 0.04 --probe-dt 0.001 --t-end 0.4
+refused 'dp 0.04' longer static_tank --dp 0.05 --probe-dt 0.002 --t-end 0.4
+refused 'distance 0.5' longer "${tank[@]}" --t-end 0.4 --set collision.distance=0.5
+refused 'must be set up by the same calls' longer sloshing_surge --dp 0.04 --probe-dt 0.002 --t-end 0.4
+runs 0 "${tank[@]}" --t-end 0.4 --frames 4 --pictures 0.01 --resume --out longer
+runs 0 "${tank[@]}" --t-end 0.4 --frames 4 --pictures 0.01 --out at_once
+same at_once longer
+diff -r at_once/frames longer/frames || fail "an extended run has other frames"
+grep -q '"t_resumed": 0.1' longer/summary.json || fail "an extended run's summary: $(grep t_resumed longer/summary.json)"
 grep -q "\"steps\": $(($(wc -l <longer/steps.csv) - 1))," longer/summary.json || fail "an extended run's steps: $(grep steps longer/summary.json)"
 series longer
-[ "$(grep -c DataSet longer/frames.pvd)" = 5 ] || fail "an extended run has $(grep -c DataSet longer/frames.pvd) frames instead of 5"
-runs 0 "${tank[@]}" --t-end 0.1 --frames 4 --resume --out longer # nothing is left to do
-grep -q 'come to its end, t = 0.1 s: no step is left' log || fail "a run that is done does not say so: $(cat log)"
-series longer
+runs 0 "${tank[@]}" --t-end 0.4 --frames 4 --pictures 0.01 --resume --out longer # only the last steps are left to do
+grep -q "the run in 'longer' reached its end; its last steps from" log || fail "a run that is done does not say so: $(cat log)"
+same at_once longer
 
 # what cannot be gone on with
-refused 'checkpoint.mps": No such file' surge sloshing_surge --dp 0.025 --t-end 1
-grep -q 'the run there has come to its end; only an interrupted run' log || fail "a finished run without checkpoint: $(cat log)"
+rm -rf old && cp -r surge old && rm old/checkpoint.mps
+refused 'reached its end, t = ' old sloshing_surge --dp 0.025 --t-end 0.1
+grep -q 'has no checkpoint; give a later --t-end' log || fail "a finished run without checkpoint: $(cat log)"
 mkdir empty
-refused 'checkpoint.mps": No such file' empty sloshing_surge --dp 0.025 --t-end 1
+refused "there is no run in 'empty'" empty sloshing_surge --dp 0.025 --t-end 1
 damage() { # text that must be in the message, shell command that damages the copy
     rm -rf damaged && cp -r longer damaged
     (cd damaged && eval "$2") || fail "cannot damage: $2"
-    refused "$1" damaged "${tank[@]}" --t-end 0.2
+    refused "$1" damaged "${tank[@]}" --t-end 0.5
     grep -q 'start anew with --overwrite, or in another folder' log || fail "$2: does not say what to do: $(cat log)"
 }
 size=$(stat -c %s longer/checkpoint.mps)
@@ -108,13 +109,13 @@ for at in 0 3 $((size / 4)) $((size / 2)) $((size - 1)); do
     damage 'checkpoint.mps"' "truncate -s $at checkpoint.mps"
 done
 damage 'probes.csv: has not the columns of this run' "sed -i '1s/P1/P7/' probes.csv"
-damage 'momentum.csv: ends before the checkpoint' "sed -i '\$d' momentum.csv"
-damage 'steps.csv has not the steps of the checkpoint' "sed -i '\$d' steps.csv"
+damage 'momentum.csv: ends before the checkpoint' "sed -i '60,\$d' momentum.csv"
+damage 'steps.csv has not the steps of the checkpoint' "sed -i '30,\$d' steps.csv"
 damage 'steps.csv has not the steps of the checkpoint' "sed -i '5d' steps.csv"
 damage 'probes.csv: ends before the checkpoint' "sed -i '5s/,/;/' probes.csv"
 damage 'steps.csv: No such file' 'rm steps.csv'
 rm -rf damaged && cp -r longer damaged && echo more >>damaged/frames.pvd
-runs 1 "${tank[@]}" --t-end 0.2 --resume --out damaged
+runs 1 "${tank[@]}" --t-end 0.5 --resume --out damaged
 grep -q 'frames.pvd' log || fail "a series that is not ours: $(cat log)"
 
 # a run that begins anew leaves no checkpoint of an older one

@@ -7,7 +7,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <locale.h>
 #include <mps/mps.h>
 #include <spawn.h>
 #include <stdarg.h>
@@ -120,8 +119,7 @@ FAULT(char *, strdup, (const char *text), (text), ENOMEM, NULL)
 FAULT(char *, strndup, (const char *text, size_t size), (text, size), ENOMEM, NULL)
 FAULT(int, uname, (struct utsname * host), (host), EIO, -1)
 FAULT(struct tm *, gmtime_r, (const time_t *t, struct tm *out), (t, out), EOVERFLOW, NULL)
-FAULT(locale_t, newlocale, (int mask, const char *name, locale_t base), (mask, name, base), ENOMEM,
-      (locale_t)0)
+FAULT(ssize_t, read, (int file, void *to, size_t size), (file, to, size), EIO, -1)
 
 /* ---- other programs and libraries ---- */
 

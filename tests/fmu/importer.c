@@ -152,6 +152,81 @@ const module *module_load(const char *folder, int version)
     return m;
 }
 
+/* Those that take an instance. Pointers, counts and flags are all 0; numbers are anything. */
+static const char *const names_two[] = {"fmi2SetDebugLogging",
+                                        "fmi2FreeInstance",
+                                        "fmi2SetupExperiment",
+                                        "fmi2EnterInitializationMode",
+                                        "fmi2ExitInitializationMode",
+                                        "fmi2Terminate",
+                                        "fmi2Reset",
+                                        "fmi2GetReal",
+                                        "fmi2SetReal",
+                                        "fmi2DoStep",
+                                        "fmi2CancelStep",
+                                        "fmi2GetStatus",
+                                        "fmi2GetRealStatus",
+                                        "fmi2GetBooleanStatus",
+                                        "fmi2GetIntegerStatus",
+                                        "fmi2GetStringStatus",
+                                        "fmi2GetFMUstate",
+                                        "fmi2SetFMUstate",
+                                        "fmi2FreeFMUstate",
+                                        "fmi2SerializedFMUstateSize",
+                                        "fmi2SerializeFMUstate",
+                                        "fmi2DeSerializeFMUstate",
+                                        "fmi2GetDirectionalDerivative",
+                                        "fmi2GetInteger",
+                                        "fmi2SetInteger",
+                                        "fmi2GetBoolean",
+                                        "fmi2SetBoolean",
+                                        "fmi2GetString",
+                                        "fmi2SetString",
+                                        "fmi2SetRealInputDerivatives",
+                                        "fmi2GetRealOutputDerivatives",
+                                        NULL};
+static const char *const names_three[] = {"fmi3SetDebugLogging",
+                                          "fmi3FreeInstance",
+                                          "fmi3EnterInitializationMode",
+                                          "fmi3ExitInitializationMode",
+                                          "fmi3EnterStepMode",
+                                          "fmi3Terminate",
+                                          "fmi3Reset",
+                                          "fmi3GetFloat64",
+                                          "fmi3SetFloat64",
+                                          "fmi3DoStep",
+                                          "fmi3GetFMUState",
+                                          "fmi3SetFMUState",
+                                          "fmi3FreeFMUState",
+                                          "fmi3SerializedFMUStateSize",
+                                          "fmi3SerializeFMUState",
+                                          "fmi3DeserializeFMUState",
+                                          "fmi3GetDirectionalDerivative",
+                                          "fmi3GetAdjointDerivative",
+                                          "fmi3EnterConfigurationMode",
+                                          "fmi3ExitConfigurationMode",
+                                          "fmi3EnterEventMode",
+                                          "fmi3EvaluateDiscreteStates",
+                                          "fmi3UpdateDiscreteStates",
+                                          "fmi3GetOutputDerivatives",
+                                          NULL};
+
+void module_null(const module *m)
+{
+    const char *const *names = m->version == 2 ? names_two : names_three;
+    for (int k = 0; names[k]; k++) {
+        int (*call)(void *, size_t, size_t, size_t, size_t, size_t, size_t, size_t, size_t);
+        find(m, names[k], &call);
+        const int status = call(NULL, 0, 0, 0, 0, 0, 0, 0, 0);
+        const bool may_succeed = strstr(names[k], "FreeInstance") || /* returns nothing */
+                                 strstr(names[k], "DirectionalDerivative") == names[k] ||
+                                 strstr(names[k], "RealInputDer") || strstr(names[k], "OutputDer");
+        const bool values = strncmp(names[k] + 4, "Get", 3) == 0 ||
+                            strncmp(names[k] + 4, "Set", 3) == 0;
+        if (!may_succeed && !values && status == 0) end(names[k], "succeeds without an instance");
+    }
+}
+
 int module_version(const module *m)
 {
     return m->version;

@@ -46,4 +46,7 @@ int tank_state_read(tank *t, const void *bytes, size_t size, void **state);
 int tank_derivative(tank *t, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
                     size_t count, const double *seed, double *out);
 
+/* All functions of the standard with NULL for the instance and for all else: no crash, an error where a call needs them. */
+void module_null(const module *m);
+
 #endif

@@ -90,6 +90,37 @@ static void back_and_again(void **state)
     }
 }
 
+static void null_instances(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) module_null(modules[k]);
+}
+
+/* A host adds up lengths to its stop time: its last step may be rounding. The loads stay those of the step before. */
+static void steps_to_a_stop_time(void **state)
+{
+    (void)state;
+    for (int k = 0; k < MODULES; k++) {
+        tank t;
+        double q[INPUTS], load[OUTPUTS], last[OUTPUTS], clock_time, time = 0;
+        const uint32_t clock = 0;
+        open_tank(&t, modules[k]);
+        OK(&t, tank_start(&t, 0));
+        time = go(&t, 0, 1, last);
+        const double stops[] = {time + 4e-16, time + 8e-16, time + 8e-16 + LENGTH};
+        for (int i = 0; i < 3; i++) {
+            pose_at(stops[i], q);
+            move(&t, time, stops[i] - time, q, load);
+            time = stops[i];
+            OK(&t, tank_get(&t, &clock, 1, &clock_time));
+            assert_true(clock_time == time);
+            for (int o = 0; o < OUTPUTS; o++) assert_true(isfinite(load[o]));
+            if (i < 2) assert_memory_equal(load, last, sizeof load);
+        }
+        tank_close(&t);
+    }
+}
+
 static void bytes_to_another_tank(void **state)
 {
     (void)state;
@@ -317,6 +348,7 @@ int main(int argc, char **argv)
     char place[1100];
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(loads_of_the_library),         cmocka_unit_test(back_and_again),
+        cmocka_unit_test(steps_to_a_stop_time),         cmocka_unit_test(null_instances),
         cmocka_unit_test(bytes_to_another_tank),        cmocka_unit_test(derivatives_of_trials),
         cmocka_unit_test(two_tanks_on_a_body),          cmocka_unit_test(refusals),
         cmocka_unit_test(derivatives_of_a_turned_tank), cmocka_unit_test(sensors)};

@@ -3,7 +3,7 @@
 program consumer
     use mps
     implicit none
-    type(c_ptr) :: sim = c_null_ptr
+    type(c_ptr) :: sim = c_null_ptr, frames = c_null_ptr, snapshot = c_null_ptr
     type(mps_config) :: config
     type(mps_tank) :: tank
     type(mps_probe) :: probe
@@ -58,6 +58,12 @@ program consumer
     call c_f_pointer(lease%data, x, [lease%count * lease%stride])
     if (maxval(x) > 1.3_c_double .or. maxval(x) < 1) error stop 'position'
     call mps_check(sim, mps_lease_end(sim, lease))
-    call mps_sim_destroy(sim)
+    call mps_check(sim, mps_frames_open(sim, '.' // c_null_char, 'fortran' // c_null_char, 0, frames))
+    call mps_check(sim, mps_snapshot_create(sim, snapshot))
+    call mps_close(sim, frames, snapshot)
+    call mps_close(sim, frames, snapshot)
+    if (mps_step(sim, 1.0_c_double, info) /= MPS_E_ARG) error stop 'a step of what was closed'
+    if (mps_frames_write(frames) /= MPS_E_ARG) error stop 'a frame of what was closed'
+    if (mps_snapshot_take(snapshot) /= MPS_E_ARG) error stop 'a snapshot of what was closed'
     print '(a)', 'Fortran: layouts, values, texts'
 end program consumer

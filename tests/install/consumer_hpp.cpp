@@ -93,7 +93,7 @@ static void arrays()
 static void callbacks()
 {
     mps::simulation sim = still();
-    CHECK(!sim.run(1.0, [](mps::simulation &s, const mps_step_info &) { return s.steps() < 3; }));
+    CHECK(!sim.run(1.0, [](mps::simulation &s, const mps_step_info &) { return s.steps() >= 3; }));
     CHECK(sim.steps() == 3);
     CHECK(throws<std::runtime_error>(
         [&] {
@@ -162,6 +162,97 @@ static void bodies()
     CHECK(throws<mps::error>([&] { moved.carry(box); }, "mass"));
 }
 
+// Objects after their simulation was destroyed, assigned or moved, within each kind of callback and after calls.
+static void lifetimes()
+{
+    mps::simulation *owned = new mps::simulation(still());
+    mps::probe_definition p;
+    p.at[1] = 0.1;
+    const mps::probe wall = owned->add(p);
+    mps::frames frames = owned->frames(".", "lifetimes", 0);
+    auto velocity = owned->lease<const double>("velocity");
+    delete owned; // children keep it
+    CHECK(velocity.size() > 0 && velocity[0][0] == 0);
+    velocity.end();
+    CHECK(velocity.size() == 0 && velocity.values().empty());
+    CHECK(wall.read().size() == 1);
+    frames.write();
+
+    // the monitor's own object goes: the run stops, and the old simulation with it
+    owned = new mps::simulation(still());
+    CHECK(!owned->run(1.0, [&](mps::simulation &, const mps_step_info &) { delete owned; }));
+    mps::simulation sim = still();
+    CHECK(!sim.run(1.0, [&](mps::simulation &, const mps_step_info &) { sim = still(); }));
+    CHECK(sim.steps() == 0 && sim.run(0.01));
+    mps::simulation elsewhere = still();
+    CHECK(sim.run(0.02, [&](mps::simulation &s, const mps_step_info &) {
+        if (&s == &sim) elsewhere = std::move(sim);
+    }));
+    CHECK(std::fabs(elsewhere.time() - 0.02) < 1e-12);
+
+    // moved from: each call says so
+    CHECK(!sim.handle());
+    CHECK(throws<mps::error>([&] { sim.step(1.0); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.run(1.0); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.count(); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.time(); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.lease<const double>("velocity"); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.frames(".", "x"); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.add(p); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.move(mps::simulation::motion()); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.carry(mps::body()); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.fill([](const double *) { return true; }); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.fill_box({0, 0}, {1, 1}); }, "empty"));
+    CHECK(throws<mps::error>([&] { sim.check(mps_threads_set(sim.handle(), 2)); }, "empty"));
+    sim = still();
+    CHECK(sim.steps() == 0);
+
+    // in a motion, a load of a body, a fill, a solid, a log
+    sim.move([&](double t, mps_motion_state &) {
+        if (t > 0.01) sim = still();
+    });
+    CHECK(!sim.run(1.0) && sim.steps() == 0 && sim.run(0.01));
+    mps::body box;
+    box.free = MPS_BODY_FREE(MPS_MOVE_X);
+    box.mass = 100;
+    sim = still();
+    sim.carry(box, [&](double, const mps_motion_state &, double *) { sim = still(); });
+    sim.step(1.0);
+    CHECK(sim.steps() == 0);
+    mps::simulation filled = still();
+    CHECK(throws<mps::error>([&] {
+        filled.fill([&](const double *) {
+            filled = still();
+            return false;
+        });
+    }));
+    mps::config config;
+    config.dp = 0.05;
+    mps::simulation told(config, nullptr, [&](int, const std::string &) { told = still(); });
+    mps::tank tank;
+    tank.size[0] = tank.size[1] = 1.02;
+    told.add(tank);
+    CHECK(told.count(MPS_FLUID) > 0);
+    mps::solid ball;
+    ball.name = "ball";
+    for (int d = 0; d < 2; d++) ball.lo[d] = 0.2, ball.hi[d] = 0.8;
+    mps::simulation solid(config);
+    solid.add(ball, [&](const double *x) {
+        solid = mps::simulation(config);
+        return std::hypot(x[0] - 0.5, x[1] - 0.5) - 0.2;
+    });
+    CHECK(solid.count() == 0);
+    mps::simulation refused = still();
+    CHECK(throws<mps::error>(
+        [&] {
+            refused.move([&](double, mps_motion_state &) {
+                refused.move([](double, mps_motion_state &) {});
+            });
+        },
+        "motion"));
+    refused.step(1.0);
+}
+
 int main()
 {
     mps::config bad;
@@ -173,5 +264,6 @@ int main()
     arrays();
     callbacks();
     bodies();
+    lifetimes();
     return failures ? 1 : 0;
 }

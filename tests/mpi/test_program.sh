@@ -3,6 +3,7 @@
 # mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air; an interrupted run goes on with another number of ranks; what is
 # refused is said once. 77: MPI starts no ranks here.
 # usage: tests/mpi/test_program.sh FOLDER_OF_MPS MPIRUN CASES
+export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 cases=$(realpath "$3")
 . "$(dirname "$0")/ranks.sh"

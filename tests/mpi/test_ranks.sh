@@ -3,6 +3,7 @@
 # Each driver in 2-D and 3-D writes the same bytes on several ranks as on one: all columns, frames, pictures and checkpoints. 77: MPI starts
 # no ranks here. Cases have 2, 3, 4, 5 ranks in turn; with "all" each case has all of these.
 # usage: tests/mpi/test_ranks.sh FOLDER_OF_DRIVERS MPIRUN [all]
+export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 . "$(dirname "$0")/ranks.sh"
 

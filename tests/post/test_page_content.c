@@ -202,7 +202,8 @@ static void dry(void **unused)
     assert_int_equal(fclose(file), 0);
     CHECK_PAGE(&s, "P1: 2 events, highest 10 kPa</summary>", "P2: no pressure</summary>",
                "No liquid came here.", "!highest -",
-               "that needs 30 events, there are 2. At this rate a record of 44.8 s has so many.");
+               "that needs 30 events, there are 2. At this rate a record of 44.8 s has so many: "
+               "<code>mps resume</code>");
     scene_remove(&s);
 }
 
@@ -339,6 +340,73 @@ static void frames_of_others(void **unused)
     scene_remove(&s);
 }
 
+/* Frames about peaks are in the film in the order of time, once each; where the page is too
+ * small for all, others are left out. */
+static void frames_about_peaks(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 400, .frames = 9, .rows = 900};
+    mps_page_info info;
+    char path[128];
+    (void)unused;
+    scene_create(&s);
+    path_of(&s, "peaks", path);
+    assert_int_equal(symlink("frames", path), 0);
+    text_write(&s, "peaks.pvd",
+               "<DataSet timestep=\"2.25\" file=\"peaks/frames_000002.vtp\"/>\n"
+               "<DataSet timestep=\"2.5\" file=\"peaks/frames_000003.vtp\"/>\n"
+               "<DataSet timestep=\"6\" file=\"peaks/frames_000006.vtp\"/>\n");
+    assert_int_equal(page_of(&s, 0, &info), MPS_OK);
+    assert_int_equal(info.frames, 11);
+    char *page = text_read(&s, "report.html", NULL);
+    assert_non_null(strstr(page, "\"t\": [0, 1, 2, 2.25, 2.5, 3, 4, 5, 6, 7, 8]"));
+    assert_non_null(strstr(page, "About the highest peaks the film has 2 frames more."));
+    free(page);
+    mps_page_config config;
+    mps_page_config_init(&config, sizeof config);
+    config.frames = 6;
+    assert_int_equal(mps_page_write(s.folder, &config, &info), MPS_OK);
+    page = text_read(&s, "report.html", NULL);
+    assert_non_null(strstr(page, "\"t\": [0, 2, 4, 6, 8]"));
+    free(page);
+    remove(path);
+    scene_remove(&s);
+}
+
+/* The page of a run that goes on says so above all else; models in use are named. */
+static void unfinished(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
+    (void)unused;
+    scene_create(&s);
+    text_write(&s, "summary.json",
+               "{\"dim\": 2, \"dp\": 0.05, \"t_end\": 0.19, \"until\": 7, \"status\": "
+               "\"unfinished\", \"models\": [\"source.volume\", \"screen.mine\"]}");
+    CHECK_PAGE(&s, "This run is not finished: it has come to t = 0.19 s of 7 s.",
+               "not finished</p>", "models in use</th><td>source.volume, screen.mine</td>",
+               "!complete</p>");
+    write_summary(&s, "");
+    CHECK_PAGE(&s, "!This run is not finished", "!models in use");
+    scene_remove(&s);
+}
+
+/* Known values beside the columns that they belong to, with figures. */
+static void known_values(void **unused)
+{
+    scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 300};
+    (void)unused;
+    scene_create(&s);
+    CHECK_PAGE(&s, "id=\"comparison\"", "<th scope=\"row\">eta</th><td>measured</td>",
+               "2 of 2 points, 0.5 s to 1 s");
+    text_write(
+        &s, "summary.json",
+        "{\"dim\": 2, \"dp\": 0.05, \"t_end\": 2.99, \"references\": [{\"label\": \"theory\", "
+        "\"unit\": \"m\", \"line\": true, \"points\": [[0, 0], [3, 0]]}, {\"label\": \"late\", "
+        "\"unit\": \"m\", \"points\": [[9, 0]]}]}");
+    CHECK_PAGE(&s, "<th scope=\"row\">eta</th><td>theory</td><td class=\"number\">71.",
+               "<td>late</td><td colspan=\"5\">no common time");
+    scene_remove(&s);
+}
+
 /* A part whose walls leave their places is a body of the film; the tank itself stands. */
 static void bodies_move(void **unused)
 {
@@ -446,6 +514,9 @@ int main(void)
                                        cmocka_unit_test(pieces_of_ranks),
                                        cmocka_unit_test(frames_of_others),
                                        cmocka_unit_test(bodies_move),
+                                       cmocka_unit_test(unfinished),
+                                       cmocka_unit_test(known_values),
+                                       cmocka_unit_test(frames_about_peaks),
                                        cmocka_unit_test(pictures),
                                        cmocka_unit_test(too_large),
                                        cmocka_unit_test(nothing_to_write_to)};

@@ -34,7 +34,7 @@ static void texts(void **state)
                "[{}, {\"key\": \"fill\"}, {\"key\": \"model\", \"value\": \"a & b\"}], "
                "\"references\": [{\"label\": \"a \\\"b\\\" \\\\ </script>\\u0007\", \"points\": "
                "[[0, 1], [null, 2], [3], [4, 5]]}, {\"column\": \"P1\"}]}");
-    HAS(&s, "\"label\": \"a \\\"b\\\" \\\\ \\u003c/script>\\u0007\"", "[[0, 1], [4, 5]]",
+    HAS(&s, "\"label\": \"a \\\"b\\\" \\\\ \\u003c/script\\u003e\xef\xbf\xbd\"", "[[0, 1], [4, 5]]",
         "{\"label\": \"reference\", \"unit\": \"\", \"column\": \"P1\", \"line\": false, "
         "\"points\": []}",
         "as asked for</th><td>60 mm", "cells</th><td>50 mm x 48 mm", "model</th><td>a &amp; b");
@@ -53,13 +53,13 @@ static void tables(void **state)
     text_write(&s, "probes.csv", "t[s],P1[Pa],h[m\r\n0,1,2\r\n1,7000,4\r\n2,3,4");
     HAS(&s, "\"rows\": 2,", "\"label\": \"h\", \"unit\": \"\",", "\"lo\": 1, \"hi\": 7000,");
     text_write(&s, "probes.csv", "t[s],P1[Pa]\n0,1\n1,2;\n2,3\n");
-    refused(&s, "probes.csv', line 3: 2 numbers are wanted");
+    refused(&s, "probes.csv:3: ");
     text_write(&s, "probes.csv", "t[s],P1[Pa]\n0,1\n1;2\n2,3\n");
-    refused(&s, "probes.csv', line 3: 2 numbers are wanted");
+    refused(&s, "probes.csv:3: ");
     for (int k = 0; k < COLUMNS; k++) memcpy(many + 2 * k, "a,", 2);
     many[2 * COLUMNS] = '\n';
     text_write(&s, "probes.csv", many);
-    refused(&s, "probes.csv' has 4101 columns, at most 4096 are read");
+    refused(&s, "probes.csv' has 4100 columns, at most 4096 are read");
     free(many);
     scene_remove(&s);
 }
@@ -231,12 +231,100 @@ static void films(void **state)
     scene_remove(&s);
 }
 
+/* A link of a file of the folder to one that is not in it: of each file that a page, statistics
+ * and pictures read. */
+static void links_out(void **state)
+{
+    static const char *const files[] = {
+        "summary.json", "probes.csv", "steps.csv",     "momentum.csv",
+        "case.yaml",    "frames.pvd", "picture_1.png", "frames/frames_000001.vtp"};
+    scene s = {.dim = 2, .fluid = 12, .frames = 2, .rows = 20}, other = s;
+    (void)state;
+    scene_create(&other);
+    text_write(&other, "secret", "TOPSECRET");
+    for (size_t k = 0; k < sizeof files / sizeof *files; k++) {
+        char path[128], to[128], back[160];
+        scene_create(&s);
+        if (strncmp(files[k], "picture", 7) == 0) { /* pictures are looked at without frames */
+            path_of(&s, "frames.pvd", path);
+            remove(path);
+        }
+        path_of(&s, files[k], path);
+        remove(path);
+        path_of(&other, strstr(files[k], "vtp") ? files[k] : "secret", to);
+        snprintf(back, sizeof back, "../%s%s", strchr(files[k], '/') ? "../" : "", to);
+        assert_int_equal(symlink(back, path), 0);
+        refused(&s, "it leads out of the folder of the run");
+        assert_non_null(strstr(s.error, files[k]));
+        scene_remove(&s);
+    }
+    scene_remove(&other);
+}
+
+/* A folder whose name is a link, and links that stay in the folder, are those of one's own runs.
+ * Names with ".." and whole names do not leave it, a pipe does not block. */
+static void links_in(void **state)
+{
+    scene s = {.dim = 2, .fluid = 12, .frames = 2, .rows = 20}, by_link = s;
+    char from[128], to[128];
+    (void)state;
+    scene_create(&s);
+    path_of(&s, "probes.csv", from);
+    path_of(&s, "rows.csv", to);
+    assert_int_equal(rename(from, to), 0);
+    assert_int_equal(symlink("rows.csv", from), 0);
+    snprintf(by_link.folder, sizeof by_link.folder, "%.50s_link", s.folder);
+    assert_int_equal(symlink(s.folder, by_link.folder), 0);
+    HAS(&by_link, "\"rows\": 20,");
+    remove(by_link.folder);
+    snprintf(to, sizeof to, "<DataSet timestep=\"0\" file=\"../%s_beside\"/>\n", s.folder);
+    text_write(&s, "frames.pvd", to);
+    snprintf(to, sizeof to, "%s_beside", s.folder);
+    fclose(fopen(to, "w"));
+    refused(&s, "it leads out of the folder of the run");
+    text_write(&s, "frames.pvd", "<DataSet timestep=\"0\" file=\"/etc/passwd\"/>\n");
+    refused(&s, "it leads out of the folder of the run");
+    remove(to);
+    remove(from);
+    assert_int_equal(mkfifo(from, 0666), 0);
+    refused(&s, "is a pipe or a device");
+    scene_remove(&s);
+}
+
+/* What a page writes replaces a link; the file behind it stays as it is. */
+static void links_of_outputs(void **state)
+{
+    static const char *const files[] = {"report.html", "report.html.tmp", "report.html.part"};
+    scene s = {.dim = 2, .fluid = 12, .frames = 0, .rows = 20};
+    char path[128];
+    (void)state;
+    scene_create(&s);
+    text_write(&s, "precious", "as it was");
+    for (int k = 0; k < 3; k++) {
+        path_of(&s, files[k], path);
+        remove(path);
+        assert_int_equal(symlink("precious", path), 0);
+    }
+    assert_int_equal(page_of(&s, 0, NULL), MPS_OK);
+    char *text = text_read(&s, "precious", NULL);
+    assert_string_equal(text, "as it was");
+    free(text);
+    scene_remove(&s);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(texts),      cmocka_unit_test(tables),
-        cmocka_unit_test(series),     cmocka_unit_test(frames),
-        cmocka_unit_test(large_case), cmocka_unit_test(peaks_in_a_row),
-        cmocka_unit_test(films),      cmocka_unit_test(names_of_folders)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(links_out),
+                                       cmocka_unit_test(links_in),
+                                       cmocka_unit_test(links_of_outputs),
+
+                                       cmocka_unit_test(texts),
+                                       cmocka_unit_test(tables),
+                                       cmocka_unit_test(series),
+                                       cmocka_unit_test(frames),
+                                       cmocka_unit_test(large_case),
+                                       cmocka_unit_test(peaks_in_a_row),
+                                       cmocka_unit_test(films),
+                                       cmocka_unit_test(names_of_folders)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -167,6 +167,46 @@ static void no_shift(void **state)
     ASSERT_NEAR(c.shift, 1, 1e-3);
 }
 
+/* Crests of a wave that the series has .1 s later and .01 higher: values at the points alone
+ * count. */
+static void points_of_a_wave(void **state)
+{
+    enum { POINTS = 9 };
+    double t[N], p[N], tp[POINTS + 1], pp[POINTS + 1];
+    mps_comparison c;
+    (void)state;
+    mps_stats_config config = new_config();
+    for (int k = 0; k < N; k++) {
+        t[k] = 0.01 * k;
+        p[k] = sin(2 * PI * (t[k] - 0.1)) + 0.3 * sin(PI * (t[k] - 0.1)) + 0.01;
+    }
+    for (int k = 0; k < POINTS; k++) {
+        tp[k] = 0.3 + 0.97 * k;
+        pp[k] = sin(2 * PI * tp[k]) + 0.3 * sin(PI * tp[k]);
+    }
+    tp[POINTS] = 20; /* after the series: left out */
+    pp[POINTS] = 5;
+    const mps_series points = series_of(POINTS + 1, tp, pp), series = series_of(N, t, p);
+    config.period = 1;
+    assert_int_equal(mps_comparison_init(&c, sizeof c), MPS_OK);
+    ASSERT_DONE(mps_points_compare(&config, &points, &series, &c));
+    assert_int_equal(c.points, POINTS);
+    ASSERT_NEAR(c.t_last, tp[POINTS - 1], 0);
+    ASSERT_NEAR(c.shift, 0.1, 2e-3);
+    ASSERT_NEAR(c.correlation, 1, 1e-3);
+    ASSERT_NEAR(c.phase, 0.2 * PI, 2e-2);
+    double squares = 0;
+    for (int k = 0; k < POINTS; k++) {
+        const double at = tp[k] - 0.1, d = sin(2 * PI * at) + 0.3 * sin(PI * at) + 0.01 - pp[k];
+        squares += d * d / POINTS;
+    }
+    ASSERT_NEAR(c.rms, sqrt(squares), 1e-3);
+    const mps_series one = series_of(1, tp, pp), late = series_of(1, tp + POINTS, pp);
+    ASSERT_DONE(mps_points_compare(&config, &one, &series, &c));
+    assert_true(c.points == 1 && isnan(c.shift) && isnan(c.correlation));
+    ASSERT_SAYS(mps_points_compare(&config, &late, &series, &c), MPS_E_ARG, "no common time");
+}
+
 static void comparison_refused(void **state)
 {
     (void)state;
@@ -345,6 +385,7 @@ int main(void)
         cmocka_unit_test(straight_lines),
         cmocka_unit_test(shifts),
         cmocka_unit_test(no_shift),
+        cmocka_unit_test(points_of_a_wave),
         cmocka_unit_test(comparison_refused),
         cmocka_unit_test(orders),
         cmocka_unit_test(other_kinds),

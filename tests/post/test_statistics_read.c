@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Constants of a run, read from its folder: those of the case, those that follow from tank and liquid, and those of a run that still goes on. */
 #include "page_fixture.h"
-#include <locale.h>
 #include <mps/stats.h>
+#include "locale_kit.h"
 
 static mps_stats_config fresh(char *error, size_t size)
 {
@@ -45,9 +45,9 @@ static void the_case_wins(void **unused)
         "\"0.45\"}, {\"key\": \"impacts.least_events\", \"value\": \"12\"}, {\"key\": "
         "\"impacts.resamples\", \"value\": \"50\"}, {\"key\": \"impacts.seed\", \"value\": \"7\"}, "
         "{\"key\": \"impacts.sensors\", \"value\": \"P1; P_top\"}]}");
-    setlocale(LC_NUMERIC, "de_DE.UTF-8"); /* where there is none, nothing changes */
+    locale_begin("de_DE.UTF-8");
     assert_int_equal(mps_stats_config_read(s.folder, &c), MPS_OK);
-    setlocale(LC_NUMERIC, "C");
+    locale_end();
     NEAR(c.period, 1.25);
     NEAR(c.omega, 5.5);
     NEAR(c.threshold, 1000);

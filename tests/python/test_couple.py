@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import copy
 import ctypes
+import inspect
 import os
 import random
 import tempfile
 import unittest
 import warnings
+from typing import Any
 
 import mps
 import numpy as np
@@ -143,20 +145,35 @@ class Coupled(unittest.TestCase):
 
 
 class Calls(unittest.TestCase):
-    """Random calls, right and wrong: they return, or fail with an exception; MPS_RANDOM_CALLS of them, by default 1000."""
+    """Random calls, right and wrong, of simulations and of what they return, also within callbacks: they return, or fail with an exception.
+    MPS_RANDOM_CALLS of them, by default 1000; MPS_RANDOM_SEED."""
 
     NUMBERS = [0, 1, -1, 2, 3, 0.05, 1e-3, 1e300, -1e300, float("nan"), float("inf"), 2**31, -(2**31), 2**63]
-    TEXTS = ["", "x", "position", "velocity", "id", "imps", "gas.pocket", "collision", "distance", "no such name", "a" * 4000, "%s%n"]
+    TEXTS = ["", "x", "position", "velocity", "id", "imps", "gas.pocket", "collision", "distance", "no such name", "a" * 4000, "%s%n", "\0", "out", "P1"]
+    ALLOWED = (mps.Error, TypeError, ValueError, OverflowError, ctypes.ArgumentError, AttributeError, KeyError, IndexError, RuntimeError,
+               ZeroDivisionError)
 
-    def draw(self, r: random.Random) -> object:
+    def draw(self, r: random.Random) -> Any:
         pick = r.random()
-        if pick < 0.45:
+        if pick < 0.4:
             return r.choice(self.NUMBERS)
-        if pick < 0.7:
+        if pick < 0.65:
             return r.choice(self.TEXTS)
-        if pick < 0.9:
+        if pick < 0.8:
             return [r.choice(self.NUMBERS) for _ in range(r.choice([0, 1, 2, 3, 4, 7]))]
-        return r.choice([None, {}, {"x": 0.1}, {"dof": "x", "amplitude": 0.01, "omega": 3.0}, lambda *a: 0, np.zeros((3, 2))])
+        if pick < 0.9:
+            return lambda *a: self.callback(r)
+        return r.choice([None, {}, {"x": 0.1}, {"dof": "x", "amplitude": 0.01, "omega": 3.0}, lambda *a: 0, np.zeros((3, 2)), (0.1, 0.1), (0.3, 0.5)])
+
+    def callback(self, r: random.Random) -> Any:
+        """What a function of the user does: a call of its own, at times."""
+        self.depth += 1
+        try:
+            if self.depth < 3 and r.random() < 0.3:
+                self.one(r)
+        finally:
+            self.depth -= 1
+        return r.choice([0, 1, True, None, 0.5, float("nan"), "text", [0.0] * 6])
 
     def simulation(self) -> mps.Simulation:
         sim = mps.Simulation(dp=0.1, log=lambda *_: None)
@@ -164,36 +181,58 @@ class Calls(unittest.TestCase):
         sim.fill_level(lo=(0, 0), hi=(1.0, 0.3))
         return sim
 
-    def one(self, sim: mps.Simulation, r: random.Random, names: list[str]) -> None:
+    def arguments(self, one: Any, name: str, r: random.Random) -> list[Any]:
+        places = [p for p in inspect.signature(getattr(one, name)).parameters.values() if p.kind <= p.POSITIONAL_OR_KEYWORD]
+        least = sum(p.default is p.empty for p in places)
+        given = [self.draw(r) for _ in range(r.randint(0, 3) if r.random() < 0.1 else r.randint(least, len(places)))]
+        if isinstance(one, mps.Simulation):
+            if name == "run":
+                given[:1] = [one.t + 0.005]
+            if name == "probe":
+                given = [r.choice(["wall_pressure", "gauge", "force", "x"]), (0, 0.1)]
+            if name in ("read", "write") and r.random() < 0.7:
+                given = [r.choice(["position", "velocity", "id", "kind"])]
+            if name == "threads":
+                given = [r.choice([1, 2, 0, -1])]
+            if name in ("tank", "stl", "frames", "checkpoint", "restore"):
+                given = [r.choice(["out", "", "no/such"])] if name != "tank" else given[:1]
+        return given
+
+    def one(self, r: random.Random) -> None:
+        """A call of one object of the pool; what it returns comes into the pool."""
+        target = self.pool[0] if r.random() < 0.6 else r.choice(self.pool)
+        names = [n for n in dir(target) if not n.startswith("_") and n not in ("adopt", "check", "failure", "sweep", "handle")]
         name = r.choice(names)
-        given = [self.draw(r) for _ in range(r.choice([0, 1, 1, 2, 2, 3]))]
-        if name == "run":
-            given[:1] = [sim.t + 0.005]
-        if name in ("tank", "stl", "frames", "checkpoint", "restore", "threads", "close"):
-            given = given[:1] if name != "threads" else [r.choice([1, 2, 0, -1])]
-        getattr(sim, name)(*given)
+        if name == "close" and r.random() < 0.8:
+            return
+        value = getattr(target, name)
+        if not callable(value) or (name == "remove" and r.random() < 0.8):
+            return
+        found = value(*self.arguments(target, name, r))
+        if isinstance(found, (mps.Frames, mps.Snapshot, mps.Lease, mps.Probe)):
+            self.pool.append(found)
+            del self.pool[1:-7]
 
     def test_random_calls(self) -> None:
-        r = random.Random(7)
+        r = random.Random(int(os.environ.get("MPS_RANDOM_SEED", "7")))
         count = int(os.environ.get("MPS_RANDOM_CALLS", "1000"))
-        names = [n for n in dir(mps.Simulation) if not n.startswith("_") and callable(getattr(mps.Simulation, n))
-                 and n not in ("adopt", "check", "failure")]
-        failed = 0
+        failed = self.depth = 0
+        self.pool: list[Any] = []
         home = os.getcwd()
         with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
             warnings.simplefilter("ignore")
             os.chdir(folder)
+            os.mkdir("out")
             try:
-                sim = self.simulation()
                 for k in range(count):
-                    if k % 50 == 0 or sim.handle is None:
-                        sim = self.simulation()
+                    if k % 50 == 0 or self.pool[0].closed:
+                        self.pool[:1] = [self.simulation()]
                     try:
-                        self.one(sim, r, names)
-                    except (mps.Error, TypeError, ValueError, OverflowError, ctypes.ArgumentError, AttributeError, KeyError, IndexError,
-                            RuntimeError):
+                        self.one(r)
+                    except self.ALLOWED:
                         failed += 1
             finally:
+                self.pool.clear()
                 os.chdir(home)
         self.assertTrue(0.3 * count < failed < 0.99 * count, failed)
 

@@ -52,9 +52,9 @@ class Running(unittest.TestCase):
             state.set("x", a * math.sin(w * t), a * w * math.cos(w * t), -a * w * w * math.sin(w * t))
 
         sims = [still() for _ in range(3)]
-        sims[0].move_harmonic({"dof": "x", "amplitude": a, "omega": w})
+        sims[0].move_harmonic(dof="x", amplitude=a, omega=w)
         sims[1].move_by(swing)
-        sims[2].move_table(times, {"x": a * np.sin(w * times)})
+        sims[2].move_table(times, x=a * np.sin(w * times))
         for sim in sims:
             sim.time_control(dt=2e-3)
             sim.run(0.3)
@@ -62,6 +62,7 @@ class Running(unittest.TestCase):
         self.assertLess(abs(sims[1]["position"] - ref).max(), 1e-9)
         self.assertLess(abs(sims[2]["position"] - ref).max(), 1e-3)
         self.assertAlmostEqual(sims[1].pose.value[0], a * math.sin(w * 0.3), places=12)
+        self.assertAlmostEqual(sims[0].pose_at(0.1).value[0], a * math.sin(w * 0.1), places=12)
         lab, velocity = sims[1].to_lab((0.0, 0.1))
         self.assertAlmostEqual(lab[0], a * math.sin(w * 0.3), places=12)
         self.assertAlmostEqual(velocity[0], a * w * math.cos(w * 0.3), places=9)
@@ -133,6 +134,20 @@ class Setting(unittest.TestCase):
             mps.Simulation(dp=-1)
         with self.assertRaisesRegex(mps.UnknownName, "rotate_z"):
             sim.move_harmonic({"dof": "roll"})
+        with self.assertRaisesRegex(mps.ArgumentError, "unknown entry 'amplitud'; allowed are .*amplitude"):
+            sim.move_harmonic(dof="x", amplitud=0.1)
+        with self.assertRaisesRegex(mps.ArgumentError, "no motion is given"):
+            sim.move_harmonic()
+        with self.assertRaisesRegex(mps.ArgumentError, "no column is given"):
+            sim.move_table([0, 1])
+        for call, why in ((lambda: sim.step("x"), "dt_max: 'x' is no number"), (lambda: sim.run(None), "t_end: None is no number"),
+                          (lambda: sim.threads(2**32 + 1), "threads: 4294967297 does not fit into 32 bits"),
+                          (lambda: sim.phase(2**32), "phase: 4294967296 does not fit"), (lambda: sim.phase(0.5), "phase: 0.5 is no whole number"),
+                          (lambda: sim.phase(0, density="heavy"), "density: 'heavy' is no number"),
+                          (lambda: mps.Simulation(dp=0.05, dim=2**32 + 2), "dim: 4294967298 does not fit"), (lambda: sim.use("gas\0"), "character 0"),
+                          (lambda: sim.read("velocity\0x"), "character 0"), (lambda: sim.add_field("mine", 2**40), "components: .* does not fit")):
+            with self.assertRaisesRegex(mps.ArgumentError, why):
+                call()
         with self.assertRaisesRegex(mps.ArgumentError, "one length"):
             sim.move_table([0, 1], {"x": [0, 1, 2]})
         with self.assertRaisesRegex(mps.ArgumentError, "at most 3"):

@@ -25,6 +25,15 @@ static int roll(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
+/* A tank that sways while it travels with the liquid, by its length in a few steps. */
+static int travel(void *user, double t, mps_motion_state *state)
+{
+    sway(user, t, state);
+    state->value[MPS_MOVE_X] += 100 * t;
+    state->rate[MPS_MOVE_X] += 100;
+    return 0;
+}
+
 const scene scenes[SCENES] = {
     {.name = "dam_2d", .preset = "imps", .dim = 2, .steps = 60, .dp = 0.02},
     {.name = "dam_3d", .preset = "imps", .dim = 3, .steps = 20, .dp = 0.05},
@@ -104,6 +113,21 @@ const scene scenes[SCENES] = {
      .motion = roll,
      .gas = true},
     {.name = "gas_3d", .preset = "imps", .dim = 3, .steps = 15, .dp = 0.05, .gas = true},
+    {.name = "travel_2d", .preset = "imps", .dim = 2, .steps = 10, .dp = 0.02, .motion = travel},
+    {.name = "travel_2d_divided",
+     .preset = "imps",
+     .dim = 2,
+     .steps = 10,
+     .dp = 0.02,
+     .motion = travel,
+     .preconditioner = "divided"},
+    {.name = "travel_3d_divided",
+     .preset = "imps",
+     .dim = 3,
+     .steps = 5,
+     .dp = 0.05,
+     .motion = travel,
+     .preconditioner = "divided"},
 };
 
 mps_status scene_create(const scene *s, mps_sim **sim)
@@ -199,6 +223,8 @@ mps_status scene_build(mps_sim *sim, const scene *s)
     if (status == MPS_OK && !s->gas)
         status = mps_fill_box_add(sim, 0, s->drop ? from : lo, s->drop ? to : depth, NULL, NULL);
     if (status == MPS_OK && s->preset[0] == 'm') status = add_air(sim, s, lo, all);
+    if (status == MPS_OK && s->motion == travel)
+        status = mps_motion_centre_set(sim, lo, MPS_START_WITH_TANK);
     if (status == MPS_OK && s->motion) status = mps_motion_callback_set(sim, s->motion, NULL);
     if (status == MPS_OK) status = add_probes(sim);
     return status;

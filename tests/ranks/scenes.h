@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <stdbool.h>
 
-enum { SCENES = 22, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 32, SCENE_PROBES = 5 };
+enum { SCENES = 25, SCENE_MOST = 8000, SCENE_NUMBERS = 9, SCENE_INFOS = 32, SCENE_PROBES = 5 };
 
 typedef struct scene {
     const char *name, *preset;

@@ -34,6 +34,8 @@ static mps_status set_body(mps_sim *sim, int32_t dim)
     b.inertia[8] = 3;
     if (dim == 3) b.inertia[0] = b.inertia[4] = 2;
     for (int k = 3; k < 6; k++) b.stiffness[7 * k] = 2000;
+    b.friction[MPS_MOVE_X] = dim == 3 ? 0 : 5;
+    b.friction[MPS_ROTATE_Z] = 0.5;
     b.gravity = 0;
     return mps_body_set(sim, &b);
 }

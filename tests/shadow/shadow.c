@@ -193,6 +193,7 @@ static int upload(void *self, void *to, const void *from, uint64_t bytes)
     assert_true(k >= 0 && room_of(s, from) < 0);
     if (s->dead) return fails(s);
     s->uploads++;
+    s->bytes_up += (int64_t)bytes;
     protect(s, k, PROT_READ | PROT_WRITE);
     memcpy(to, from, bytes);
     protect(s, k, PROT_NONE);
@@ -205,6 +206,7 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
     const int k = room_of(s, from);
     assert_true(k >= 0 && room_of(s, to) < 0);
     s->downloads++;
+    s->bytes_down += (int64_t)bytes;
     if (s->dead || s->downloads == s->loses_at) {
         memset(to, 0x55, bytes); /* what a copy that failed has left is anything */
         return fails(s);
@@ -313,6 +315,7 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     shadow *s = self;
     if (s->dead) return fails(s);
     run(s, l, sum, maximum);
+    s->bytes_down += (int64_t)((size_t)l->sums * sizeof *sum + (size_t)l->maxima * sizeof *maximum);
     return 0;
 }
 

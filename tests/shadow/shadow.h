@@ -12,6 +12,7 @@ typedef struct shadow {
     mps_device_ops ops;
     int64_t rooms;                        /* that were not given back */
     int64_t uploads, downloads, outdated; /* so many */
+    int64_t bytes_up, bytes_down;         /* of all copies, with sums and maxima */
     int64_t launches;                     /* loops */
     int32_t ended;                        /* calls of a function of the test's */
     bool refuses;                         /* room is refused, */

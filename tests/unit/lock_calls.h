@@ -183,6 +183,7 @@ CALL(mps_lease_end, mps_lease l = {.struct_size = sizeof l};
      const mps_status end = mps_lease_end(sim, &l); return status == MPS_OK ? end : MPS_E_BUSY;)
 CALL(mps_step, return mps_step(sim, 1e-3, NULL);)
 CALL(mps_run, return mps_run(sim, 1, NULL, NULL);)
+CALL(mps_checkpoint_note_add, return mps_checkpoint_note_add(sim, "a line");)
 CALL(mps_checkpoint_read, return mps_checkpoint_read(sim, given.path);)
 
 CALL(mps_body_set, return mps_body_set(sim, NULL);)
@@ -226,6 +227,8 @@ CALL(mps_preconditioner_info_get, STRUCT(mps_name_info);
 CALL(mps_kernel_info_get, STRUCT(mps_name_info); return mps_kernel_info_get(sim, 0, &a);)
 CALL(mps_motion_state_get, mps_motion_state s = {.struct_size = sizeof s};
      return mps_motion_state_get(sim, &s);)
+CALL(mps_motion_state_at, mps_motion_state s = {.struct_size = sizeof s};
+     return mps_motion_state_at(sim, 0, &s);)
 CALL(mps_motion_to_lab, double x[2]; return mps_motion_to_lab(sim, low, x, NULL);)
 CALL(mps_particles_count, return mps_particles_count(sim, -1) > 0 ? MPS_OK : MPS_E_BUSY;)
 CALL(mps_particle_index, return mps_particle_index(sim, 1) >= 0 ? MPS_OK : MPS_E_BUSY;)
@@ -297,9 +300,11 @@ static const lock_call lock_calls[] = {
     CHANGES(mps_lease_begin),
     CHANGES(mps_step),
     CHANGES(mps_run),
+    CHANGES(mps_checkpoint_note_add),
     CHANGES(mps_checkpoint_read),
     CHANGES(mps_body_set),
     READS(mps_body_get),
+    READS(mps_motion_state_at),
     CHANGES(mps_load_watch),
     CHANGES(mps_snapshot_create),
     CHANGES(mps_snapshot_restore),

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Series of frames: valid after every frame, continued, and what else is in the folder stays. */
 #include "frame_fixture.h"
-#include <locale.h>
 #include <sys/stat.h>
+#include "locale_kit.h"
 
 static void series_names_all_frames(void **state)
 {
@@ -140,6 +140,57 @@ static void series_goes_on(void **state)
     }
 }
 
+static char path_room[256];
+
+static int at_even_steps(void *user, double t)
+{
+    (void)user;
+    return (int)(10 * t + 0.5) % 2 == 0;
+}
+
+/* Files with the number of the step: frames are removed, also before a checkpoint from which the
+ * series goes on. */
+static void frames_are_removed(void **state)
+{
+    mps_frames *frames;
+    char *text;
+    size_t size;
+    (void)state;
+    mps_sim *sim = prepared(2);
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "steps", MPS_FRAMES_STEPS, &frames));
+    for (int k = 3; k < 8; k++) {
+        sim->world.state.t = 0.1 * k;
+        sim->world.state.step = 10 * k;
+        ASSERT_OK(sim, mps_frames_write(frames));
+    }
+    ASSERT_OK(sim, mps_frames_remove(frames, at_even_steps, NULL));
+    mps_frames_close(frames);
+    text = slurp("steps.pvd", &size);
+    assert_non_null(strstr(text, "steps/steps_000040.vtp"));
+    assert_null(strstr(text, "steps/steps_000050.vtp"));
+    assert_non_null(strstr(text, "steps/steps_000060.vtp"));
+    free(text);
+    assert_true(there("steps/steps_000040.vtp") && !there("steps/steps_000050.vtp"));
+    assert_true(there("steps/steps_000060.vtp") && !there("steps/steps_000070.vtp"));
+    sim->world.state.t = 0.5; /* goes on from here; a frame was removed later */
+    assert_int_equal(
+        remove((snprintf(path_room, sizeof path_room, "%s/steps/steps_000040.vtp", folder),
+                path_room)),
+        0);
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "steps", MPS_FRAMES_STEPS | MPS_FRAMES_CONTINUE,
+                                   &frames));
+    text = slurp("steps.pvd", &size);
+    assert_null(strstr(text, "DataSet"));
+    free(text);
+    assert_false(there("steps/steps_000060.vtp"));
+    mps_frames_close(frames);
+    ASSERT_OK(sim, mps_frames_open(sim, folder, "plain", 0, &frames));
+    assert_int_equal(mps_frames_remove(frames, at_even_steps, NULL), MPS_E_ARG);
+    assert_int_equal(mps_frames_remove(NULL, at_even_steps, NULL), MPS_E_ARG);
+    mps_frames_close(frames);
+    mps_sim_destroy(sim);
+}
+
 /* What is written at the time of the last frame takes its place. */
 static void no_time_twice(void **state)
 {
@@ -219,21 +270,16 @@ static void foreign_series_stays(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The host program's locale has a decimal comma; skipped where no such locale is installed. */
+/* The locale of the application has a decimal comma. */
 static void series_goes_on_with_a_comma(void **state)
 {
     (void)state;
-    static const char *const names[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE",
-                                        "fr_FR"};
-    bool comma = false;
-    for (int k = 0; k < 5 && !comma; k++)
-        comma = setlocale(LC_NUMERIC, names[k]) && strcmp(localeconv()->decimal_point, ",") == 0;
-    if (!comma) skip();
+    locale_begin("de_DE.UTF-8");
     mps_frames *frames;
     mps_sim *sim = four_frames("comma");
     sim->world.state.t = 0.25;
     mps_status status = mps_frames_open(sim, folder, "comma", MPS_FRAMES_CONTINUE, &frames);
-    setlocale(LC_NUMERIC, "C");
+    locale_end();
     ASSERT_OK(sim, status);
     check_series("comma", 3, (const double[]){0, 0.1, 0.2});
     mps_frames_close(frames);
@@ -273,7 +319,8 @@ static void refusals(void **state)
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, NULL, 0, &frames), MPS_E_ARG, "name");
     ASSERT_REFUSED(sim, mps_frames_open(sim, "", "run", 0, &frames), MPS_E_ARG, "folder");
     ASSERT_REFUSED(sim, mps_frames_open(sim, NULL, "run", 0, &frames), MPS_E_ARG, "folder");
-    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 64, &frames), MPS_E_ARG, "kinds is 64");
+    ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 128, &frames), MPS_E_ARG,
+                   "kinds is 128");
     ASSERT_REFUSED(sim, mps_frames_open(sim, folder, "run", 0, NULL), MPS_E_ARG, "frames is NULL");
     assert_int_equal(mps_frames_open(NULL, folder, "run", 0, &frames), MPS_E_ARG);
     assert_int_equal(mps_frames_write(NULL), MPS_E_ARG);
@@ -293,15 +340,11 @@ static void refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(series_names_all_frames),
-        cmocka_unit_test(old_frames_go),
-        cmocka_unit_test(series_goes_on),
-        cmocka_unit_test(no_time_twice),
-        cmocka_unit_test(nothing_to_go_on_with),
-        cmocka_unit_test(foreign_series_stays),
-        cmocka_unit_test(series_goes_on_with_a_comma),
-        cmocka_unit_test(no_particle_of_a_kind),
-        cmocka_unit_test(refusals),
+        cmocka_unit_test(series_names_all_frames), cmocka_unit_test(old_frames_go),
+        cmocka_unit_test(frames_are_removed),      cmocka_unit_test(series_goes_on),
+        cmocka_unit_test(no_time_twice),           cmocka_unit_test(nothing_to_go_on_with),
+        cmocka_unit_test(foreign_series_stays),    cmocka_unit_test(series_goes_on_with_a_comma),
+        cmocka_unit_test(no_particle_of_a_kind),   cmocka_unit_test(refusals),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

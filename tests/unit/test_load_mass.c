@@ -255,18 +255,21 @@ static void changes_nothing(void **state)
     mps_sim_destroy(sim[1]);
 }
 
-/* A checkpoint has the first guesses of A: the steps behind it have the same bytes. One that has none can be read, too. */
+/* A checkpoint has the load of the last step, and the first guesses of A: the steps after it have
+ * the same bytes. A checkpoint without them can be read, too. */
 static void through_a_checkpoint(void **state)
 {
     static const char path[] = "test_load_mass.mps";
     mps_sim *sim[3] = {tank(2, 0.05, 0.25, 0), tank(2, 0.05, 0.25, 0), tank(2, 0.05, 0.25, 0)};
     mps_load l[3];
     (void)state;
-    step_with(sim[0], MPS_LOAD_MASS, 3);
+    mps_load last = step_with(sim[0], MPS_LOAD_MASS, 3);
     ASSERT_OK(sim[0], mps_checkpoint_write(sim[0], path));
     for (int k = 0; k < 2; k++) {
         ASSERT_OK(sim[k], mps_load_watch(sim[k], MPS_LOAD_MASS));
         ASSERT_OK(sim[k], mps_checkpoint_read(sim[k], path));
+        const mps_load back = load_of(sim[k], NULL);
+        assert_memory_equal(&back, &last, sizeof back);
         l[k] = step_with(sim[k], MPS_LOAD_MASS, 2);
     }
     assert_true(l[0].has_mass == 1 && l[1].has_mass == 1);
@@ -277,6 +280,8 @@ static void through_a_checkpoint(void **state)
     ASSERT_OK(sim[2], mps_step(sim[2], 1e-3, NULL));
     ASSERT_OK(sim[2], mps_checkpoint_write(sim[2], path));
     ASSERT_OK(sim[1], mps_checkpoint_read(sim[1], path));
+    mps_load_init(&last, sizeof last);
+    assert_int_equal(mps_load_get(sim[1], NULL, &last), MPS_E_STATE);
     l[2] = step_with(sim[1], MPS_LOAD_MASS, 2);
     for (int k = 0; k < 36; k++) ASSERT_NEAR(l[2].mass[k], l[0].mass[k], 2e-4 * 200);
     assert_memory_equal(l[2].force, l[0].force, sizeof l[0].force);

@@ -222,9 +222,82 @@ static void every_function_is_in_the_table(void **state)
     assert_int_equal(found, lock_call_count - LOCK_OF_FRAMES);
 }
 
+/* ---- mps_sim_destroy() in callbacks outside of steps ---- */
+
+static mps_sim *destroyed;
+static int destroyers;
+
+static double destroying_kernel(void *user, double r, double re)
+{
+    (void)user;
+    destroyers++;
+    if (destroyed) mps_sim_destroy(destroyed);
+    return re / (r + 0.1 * re) - 0.9;
+}
+
+static void destroying_log(void *user, int level, const char *text)
+{
+    (void)user, (void)level, (void)text;
+    destroyers++;
+    if (destroyed) mps_sim_destroy(destroyed);
+}
+
+static void destroying_end(const mps_allocator *allocator, void *self)
+{
+    (void)allocator, (void)self;
+    destroyers++;
+    mps_sim_destroy(destroyed);
+}
+
+static int nothing_to_make(const mps_allocator *allocator, void **self)
+{
+    (void)allocator, (void)self;
+    return 0;
+}
+
+/* It does nothing, ends, and says so. */
+static void destroy_in_callbacks(void **state)
+{
+    const mps_model_ops ops = {TOY("ending.toy", 1, idle_verbs), .create = nothing_to_make,
+                               .destroy = destroying_end};
+    const double at[2] = {0.2, 0.1};
+    mps_kernel k = {.struct_size = sizeof k};
+    mps_stencil near;
+    mps_config c;
+    mps_probe probe;
+    int32_t id;
+    double value[6];
+    (void)state;
+    assert_int_equal(mps_config_init(&c, sizeof c), MPS_OK);
+    assert_int_equal(mps_stencil_init(&near, sizeof near), MPS_OK);
+    assert_int_equal(mps_probe_init(&probe, sizeof probe), MPS_OK);
+    c.dp = 0.05;
+    c.log = destroying_log;
+    assert_int_equal(mps_sim_create(&c, &destroyed), MPS_OK);
+    mps_sim *sim = destroyed;
+    assert_int_equal(mps_kernel_custom(destroying_kernel, NULL, &k), MPS_OK);
+    ASSERT_OK(sim, mps_kernel_use(sim, &k));
+    assert_non_null(strstr(mps_sim_error(sim), "mps_sim_destroy() was called from"));
+    add_tank(sim, 0.5, 0.5, 0);
+    fill_depth(sim, 0.5, 0.3, 0); /* logs */
+    probe.type = MPS_PROBE_FLUID_PRESSURE;
+    memcpy(probe.at, at, sizeof at);
+    ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
+    ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &near));
+    ASSERT_OK(sim, mps_probe_read(sim, id, value));
+    ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
+    use_model(sim, &ops);
+    assert_true(destroyers > 10);
+    destroyers = 0;
+    mps_sim_destroy(sim);
+    assert_int_equal(destroyers, 2); /* by the model, and by the log that warns of it */
+    destroyed = NULL;
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(every_function_is_in_the_table),
+                                       cmocka_unit_test(destroy_in_callbacks),
                                        cmocka_unit_test(refused_without_a_trace)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -256,6 +256,38 @@ static void beyond_the_table(void **state)
     mps_sim_destroy(sim);
 }
 
+/* A motion at other times is that of the steps; none is known of a tank that stands or that a body carries. */
+static void at_other_times(void **state)
+{
+    (void)state;
+    mps_sim *sim = new_sim(2, 0.1);
+    const double t[3] = {-1, 1, 2.5}, y[3] = {-0.1, 0.1, 0.3};
+    const int32_t dof = MPS_MOVE_X;
+    mps_motion_state s = {.struct_size = sizeof s};
+    mps__pose pose;
+    mps_body body;
+    ASSERT_OK(sim, mps_motion_state_at(sim, 7, &s));
+    for (int k = 0; k < 6; k++) assert_true(s.value[k] == 0 && s.rate[k] == 0 && s.accel[k] == 0);
+    ASSERT_OK(sim, mps_motion_table_set(sim, 3, t, 1, &dof, y));
+    for (double at = -1; at <= 2.5; at += 0.25) {
+        ASSERT_OK(sim, mps__motion_pose(&sim->world.motion, at, &pose));
+        ASSERT_OK(sim, mps_motion_state_at(sim, at, &s));
+        assert_memory_equal(&s, &pose.state, sizeof s);
+    }
+    const mps_motion_state before = s;
+    ASSERT_REFUSED(sim, mps_motion_state_at(sim, 2.501, &s), MPS_E_STATE, "last row of its table");
+    ASSERT_REFUSED(sim, mps_motion_state_at(sim, NAN, &s), MPS_E_ARG, "t is nan s");
+    ASSERT_REFUSED(sim, mps_motion_state_at(sim, 0, NULL), MPS_E_ARG, "NULL");
+    assert_int_equal(mps_motion_state_at(NULL, 0, &s), MPS_E_ARG);
+    assert_int_equal(mps_body_init(&body, sizeof body), MPS_OK);
+    body.free = MPS_BODY_FREE(MPS_MOVE_X);
+    body.mass = 1;
+    ASSERT_OK(sim, mps_body_set(sim, &body));
+    ASSERT_REFUSED(sim, mps_motion_state_at(sim, 0, &s), MPS_E_STATE, "a body carries the tank");
+    assert_memory_equal(&s, &before, sizeof s);
+    mps_sim_destroy(sim);
+}
+
 static void table_refusals(void **state)
 {
     (void)state;
@@ -420,13 +452,21 @@ static void turns_the_plane(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(turns_the_plane),        cmocka_unit_test(harmonics_are_exact),
-        cmocka_unit_test(spline_converges),       cmocka_unit_test(spline_is_c2),
-        cmocka_unit_test(point_follows_its_path), cmocka_unit_test(order_of_rotations),
-        cmocka_unit_test(contents_are_carried),   cmocka_unit_test(start_with_tank),
-        cmocka_unit_test(beyond_the_table),       cmocka_unit_test(table_refusals),
-        cmocka_unit_test(harmonic_refusals),      cmocka_unit_test(far_away),
-        cmocka_unit_test(callback_refusals),      cmocka_unit_test(other_refusals),
+        cmocka_unit_test(turns_the_plane),
+        cmocka_unit_test(harmonics_are_exact),
+        cmocka_unit_test(spline_converges),
+        cmocka_unit_test(spline_is_c2),
+        cmocka_unit_test(point_follows_its_path),
+        cmocka_unit_test(order_of_rotations),
+        cmocka_unit_test(contents_are_carried),
+        cmocka_unit_test(start_with_tank),
+        cmocka_unit_test(beyond_the_table),
+        cmocka_unit_test(table_refusals),
+        cmocka_unit_test(at_other_times),
+        cmocka_unit_test(harmonic_refusals),
+        cmocka_unit_test(far_away),
+        cmocka_unit_test(callback_refusals),
+        cmocka_unit_test(other_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -185,11 +185,58 @@ static void threads_agree(void **state)
     for (int k = 0; k < 3; k++) mps_sim_destroy(sim[k]);
 }
 
+/* Programs add up lengths: whatever the end, a loop to it ends, and the time is the end to the last bit. */
+static void loops_of_hosts(void **state)
+{
+    static const double lengths[] = {0.01, 0.1, 1.0 / 3, 0.07};
+    (void)state;
+    for (int k = 0; k < 80; k++) {
+        const double length = lengths[k % 4], until = k == 0   ? 2.45
+                                                      : k == 4 ? 9.75
+                                                      : k == 8
+                                                          ? 16
+                                                          : (0.05 + 0.35 * k) * (k % 4 ? 1 : 0.1);
+        mps_sim *sim = drop();
+        double t = 0;
+        int left = 4000;
+        set_fixed_step(sim, 1); /* a run is one step */
+        while (t < until) {
+            const double to = fmin(t + length, until);
+            ASSERT_OK(sim, mps_run(sim, to, NULL, NULL));
+            ASSERT_OK(sim, mps_sim_time(sim, &t, NULL));
+            if (t != to) fail_msg("at %.17g s instead of %.17g s", t, to);
+            if (--left == 0) fail_msg("the loop to %.17g s does not end", until);
+        }
+        mps_sim_destroy(sim);
+    }
+}
+
+/* Within rounding of the present time there is no step, before it as well as after it; farther back there is an error. */
+static void rounding_is_no_step(void **state)
+{
+    const double ends[] = {2, 2 + 1e-15, 2 - 1e-15, 2 + 1.9e-12, 2 - 1.9e-12};
+    mps_sim *sim = drop();
+    (void)state;
+    set_fixed_step(sim, 1);
+    for (int k = 0; k < 5; k++) {
+        double t;
+        int64_t before, after;
+        ASSERT_OK(sim, mps_run(sim, 2, NULL, NULL));
+        ASSERT_OK(sim, mps_sim_time(sim, NULL, &before));
+        ASSERT_OK(sim, mps_run(sim, ends[k], NULL, NULL));
+        ASSERT_OK(sim, mps_sim_time(sim, &t, &after));
+        assert_true(t == ends[k] && after == before);
+    }
+    ASSERT_REFUSED(sim, mps_run(sim, 1.9, NULL, NULL), MPS_E_ARG, "t_end is 1.8999");
+    mps_sim_destroy(sim);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(run_to_the_end),  cmocka_unit_test(whole_steps),
         cmocka_unit_test(no_sliver),       cmocka_unit_test(monitor_stops),
-        cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree)};
+        cmocka_unit_test(monitor_meddles), cmocka_unit_test(threads_agree),
+        cmocka_unit_test(loops_of_hosts),  cmocka_unit_test(rounding_is_no_step)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -195,7 +195,7 @@ static double of_wall(int64_t i)
     return sum;
 }
 
-/* Largest speeds of the fluid inside: of the denser, of all. */
+/* Largest speeds of the fluid inside, relative to the tank that surges: of the denser, of all. */
 static void speeds(double light, double most[2])
 {
     const double *u = stage->data[VELOCITY];
@@ -203,7 +203,7 @@ static void speeds(double light, double most[2])
     for (int64_t i = 0; i < view->n; i++) {
         double u2 = 0;
         if (view->kind[i] != MPS_FLUID || region[i] >= MPS_REGION_SURFACE) continue;
-        for (int d = 0; d < view->dim; d++) u2 += u[i * view->dim + d] * u[i * view->dim + d];
+        for (int d = 0; d < view->dim; d++) u2 += pow(u[i * view->dim + d] - view->tank.rate[d], 2);
         if (rho[i] > light) most[0] = fmax(most[0], sqrt(u2));
         most[1] = fmax(most[1], sqrt(u2));
     }

@@ -9,8 +9,10 @@
 /* A text in which no character is markup. */
 static void put(FILE *out, const char *text)
 {
+    bool first = false;
     for (; *text; text++) {
-        if (strchr("\\*_#|[]", *text)) fputc('\\', out);
+        if (strchr("\\*_#|[]", *text) || (*text == '-' && first)) fputc('\\', out);
+        first = *text == '\n'; /* a line that begins with - is an entry of a list */
         fputc(*text, out);
     }
 }

@@ -11,9 +11,10 @@ import numpy as np
 from . import _numbers as N
 from . import _structs as T
 from . import errors
+from ._held import Held, Owner
 from ._library import c
 from ._motion import degree
-from ._records import Calls, Record, copied, make, reals, record
+from ._records import Calls, Record, copied, make, real, reals, record
 
 if TYPE_CHECKING:
     from .simulation import Simulation
@@ -50,10 +51,11 @@ class Coupling:
     if TYPE_CHECKING:
         check: Callable[[int], int]
 
-    def pose_to(self, t_end: float, poses: Mapping[str, Any]) -> None:
-        """Move the tank from its present pose to this one, where it is at t_end: {"x": (value, rate, accel)} or {"x": value}."""
+    def pose_to(self, t_end: float, poses: Mapping[str, Any] | None = None, **more: Any) -> None:
+        """Move the tank from its present pose to this one, where it is at t_end: pose_to(t_end, x=(value, rate, accel)) or x=value, in m and
+        rad, or a dict of them."""
         state = make(T.mps_motion_state)
-        for name, given in poses.items():
+        for name, given in {**(poses or {}), **more}.items():
             k = degree(name)
             if isinstance(given, float):
                 state.value[k] = given
@@ -61,7 +63,7 @@ class Coupling:
             values = list(given) if hasattr(given, "__len__") else [given]
             for array, value in zip((state.value, state.rate, state.accel), values):
                 array[k] = value
-        self.check(c.mps_motion_pose_set(self.handle, t_end, byref(state)))
+        self.check(c.mps_motion_pose_set(self.handle, real("t_end", t_end), byref(state)))
 
     def watch_load(self, mass: bool = False) -> None:
         """The next steps find out the load of the liquid; mass: its added mass too."""
@@ -117,34 +119,21 @@ class Coupling:
         return Snapshot(self).take()  # type: ignore[arg-type]
 
 
-class Snapshot:
-    """State of a simulation in memory. The simulation must outlive it."""
+class Snapshot(Owner):
+    """State of a simulation in memory; it belongs to the simulation."""
 
     def __init__(self, sim: Simulation) -> None:
-        self._sim, self._snapshot = sim, POINTER(T.mps_snapshot)()
-        sim.check(c.mps_snapshot_create(sim.handle, byref(self._snapshot)))
+        self._sim, snapshot = sim, POINTER(T.mps_snapshot)()
+        sim.check(c.mps_snapshot_create(sim.handle, byref(snapshot)))
+        self._held = Held("snapshot", snapshot, c.mps_snapshot_destroy, sim._held)
 
     def take(self) -> Snapshot:
         """Copy the present state into it, in place of what it holds."""
-        self._sim.check(c.mps_snapshot_take(self._snapshot))
+        with self._held as snapshot:
+            self._sim.check(c.mps_snapshot_take(snapshot))
         return self
 
     def restore(self) -> None:
         """Give the simulation the state that it holds."""
-        self._sim.check(c.mps_snapshot_restore(self._snapshot))
-
-    def close(self) -> None:
-        """Give back its memory."""
-        if self._snapshot and self._sim.handle is not None:
-            c.mps_snapshot_destroy(self._snapshot)
-        self._snapshot = POINTER(T.mps_snapshot)()
-
-    def __enter__(self) -> Snapshot:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "_snapshot", None):
-            self.close()
+        with self._held as snapshot:
+            self._sim.check(c.mps_snapshot_restore(snapshot))

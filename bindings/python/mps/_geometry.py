@@ -10,7 +10,7 @@ import numpy as np
 
 from . import _structs as T
 from ._library import c
-from ._records import Calls, coded, make, reals
+from ._records import Calls, coded, make, reals, whole
 
 if TYPE_CHECKING:
     Check = Callable[[int], int]
@@ -68,13 +68,13 @@ class Geometry:
     def fill_box(self, lo: Any, hi: Any, phase: int = 0) -> int:
         """Fluid in a box of the lattice. Returns the number of particles."""
         added = c_int64()
-        self.check(c.mps_fill_box_add(self.handle, phase, reals(lo, 3), reals(hi, 3), byref(added), None))
+        self.check(c.mps_fill_box_add(self.handle, whole("phase", phase), reals(lo, 3), reals(hi, 3), byref(added), None))
         return added.value
 
     def fill_level(self, lo: Any, hi: Any, phase: int = 0) -> int:
         """Fluid in a box up to the level hi[1]. Returns the number of particles."""
         added = c_int64()
-        self.check(c.mps_fill_level_add(self.handle, phase, reals(lo, 3), reals(hi, 3), byref(added), None))
+        self.check(c.mps_fill_level_add(self.handle, whole("phase", phase), reals(lo, 3), reals(hi, 3), byref(added), None))
         return added.value
 
     def fill(self, inside: Callable[[np.ndarray], object], phase: int = 0) -> int:
@@ -85,7 +85,7 @@ class Geometry:
             return 1 if inside(np.array(x[:dim])) else 0
 
         function = T.mps_inside_fn(self._calls.guard(look, 0))
-        status = c.mps_fill_add(self.handle, phase, function, None, byref(added))
+        status = c.mps_fill_add(self.handle, whole("phase", phase), function, None, byref(added))
         failed = self._calls.taken()
         if failed is not None:
             places = [int(i) for i in self["id"] if i > first] if status == 0 else []  # type: ignore[index]

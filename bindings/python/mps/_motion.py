@@ -12,7 +12,7 @@ from . import _numbers as N
 from . import _structs as T
 from . import errors
 from ._library import c
-from ._records import Calls, Record, make, reals, record
+from ._records import Calls, Record, copied, make, real, reals, record
 
 DEGREES = {"x": N.MPS_MOVE_X, "y": N.MPS_MOVE_Y, "z": N.MPS_MOVE_Z, "rotate_x": N.MPS_ROTATE_X, "rotate_y": N.MPS_ROTATE_Y,
            "rotate_z": N.MPS_ROTATE_Z}
@@ -53,15 +53,24 @@ class Motion:
         """Centre of rotation [m]; with_tank: the liquid begins with the velocity of the tank."""
         self.check(c.mps_motion_centre_set(self.handle, reals(centre, 3), N.MPS_START_WITH_TANK if with_tank else N.MPS_START_AT_REST))
 
-    def move_harmonic(self, *harmonics: Mapping[str, Any]) -> None:
-        """Motion as a sum of harmonics: {"dof": "rotate_z", "amplitude": .07, "omega": 5, "ramp": 2}, entries of mps_harmonic."""
+    def move_harmonic(self, *harmonics: Mapping[str, Any], **one: Any) -> None:
+        """Harmonic motion: value = amplitude sin(omega t + phase), as move_harmonic(dof="rotate_z", amplitude=0.07, omega=5, ramp=2), or the
+        sum of several: move_harmonic({"dof": "x", ...}, {"dof": "y", ...}). dof: x, y, z [m], rotate_x, rotate_y, rotate_z [rad]; the other
+        entries are those of mps_harmonic."""
+        harmonics += (one,) if one else ()
+        if not harmonics:
+            raise errors.error(N.MPS_E_ARG, "move_harmonic(dof='x', amplitude=0.02, omega=5.0): no motion is given; stop() ends one")
         all_ = (T.mps_harmonic * len(harmonics))()
         for k, given in enumerate(harmonics):
             all_[k] = make(T.mps_harmonic, {**given, "dof": degree(given.get("dof", "x"))}, "harmonic")
         self.check(c.mps_motion_harmonics_set(self.handle, len(harmonics), all_))
 
-    def move_table(self, t: Sequence[float], columns: Mapping[str, Sequence[float]]) -> None:
-        """Motion from a table: times and a column for each degree, e.g. {"x": [...]}; between rows a spline."""
+    def move_table(self, t: Sequence[float], columns: Mapping[str, Sequence[float]] | None = None, **more: Sequence[float]) -> None:
+        """Motion from a table: times [s] and a column for each degree [m, rad], move_table(t, x=[...], rotate_z=[...]) or a dict of them;
+        between rows a spline."""
+        columns = {**(columns or {}), **more}
+        if not columns:
+            raise errors.error(N.MPS_E_ARG, "move_table(t, x=[...]): no column is given")
         dofs = (c_int32 * len(columns))(*[degree(name) for name in columns])
         lengths = {len(column) for column in columns.values()} | {len(t)}
         if len(lengths) != 1:
@@ -72,7 +81,9 @@ class Motion:
     def move_by(self, function: Callable[[float, State], None]) -> None:
         """Motion by a function of yours, function(t, state), a smooth function of t alone; see State."""
         def call(_user: Any, t: float, state: Any) -> int:
-            function(t, State(state.contents))
+            own = copied(state.contents)  # yours may keep its State, the library's memory ends with the call
+            function(t, State(own))
+            state[0] = own
             return 0
 
         kept = T.mps_motion_fn(self._calls.guard(call, 1))
@@ -88,6 +99,12 @@ class Motion:
         """Values, rates and accelerations of the six degrees of freedom now."""
         state = make(T.mps_motion_state)
         self.check(c.mps_motion_state_get(self.handle, byref(state)))
+        return record(state)
+
+    def pose_at(self, t: float) -> Record:
+        """The same of the prescribed motion at a time [s]."""
+        state = make(T.mps_motion_state)
+        self.check(c.mps_motion_state_at(self.handle, real("t", t), byref(state)))
         return record(state)
 
     def to_lab(self, point: Any) -> tuple[np.ndarray, np.ndarray]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ctypes
 import functools
+import operator
 from collections.abc import Callable, Iterator
 from typing import Any, TypeVar
 
@@ -11,6 +12,7 @@ import numpy as np
 
 from . import errors
 from ._library import c
+from ._numbers import MPS_E_ARG
 
 S = TypeVar("S", bound=ctypes.Structure)
 
@@ -20,7 +22,34 @@ def text(value: bytes | None) -> str:
 
 
 def coded(value: str | None) -> bytes | None:
-    return None if value is None else str(value).encode()
+    """A text or a path for C; names of files may have bytes that are not UTF-8."""
+    if value is None:
+        return None
+    data = str(value).encode("utf-8", "surrogateescape")
+    if b"\0" in data:
+        raise errors.error(MPS_E_ARG, f"{value!r} has a character 0, which ends a text of C")
+    return data
+
+
+def whole(name: str, value: Any, bits: int = 32) -> int:
+    """A whole number that an integer of C can hold; ctypes would wrap others around."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        raise errors.error(MPS_E_ARG, f"{name}: {value!r} is no whole number") from None
+    if not -(1 << (bits - 1)) <= number < 1 << (bits - 1):
+        raise errors.error(MPS_E_ARG, f"{name}: {number} does not fit into {bits} bits")
+    return number
+
+
+def real(name: str, value: Any) -> float:
+    """A number."""
+    if isinstance(value, (str, bytes)) or not hasattr(value, "__float__") and not hasattr(value, "__index__"):
+        raise errors.error(MPS_E_ARG, f"{name}: {value!r} is no number")
+    try:
+        return float(value)
+    except (TypeError, ValueError, OverflowError) as e:
+        raise errors.error(MPS_E_ARG, f"{name}: {value!r} is no number: {e}") from None
 
 
 def reals(values: Any, least: int = 0) -> ctypes.Array[ctypes.c_double]:
@@ -34,10 +63,21 @@ def pointer(array: np.ndarray | None, kind: Any = ctypes.c_double) -> Any:
     return None if array is None else array.ctypes.data_as(ctypes.POINTER(kind))
 
 
+_UNSIGNED = (ctypes.c_uint8, ctypes.c_uint32, ctypes.c_uint64, ctypes.c_size_t)
+_BITS = {kind: 8 * ctypes.sizeof(kind) for kind in (ctypes.c_int, ctypes.c_int32, ctypes.c_int64, *_UNSIGNED)}
+
+
+def _unsigned(name: str, value: Any, bits: int) -> int:
+    number = whole(name, value, bits + 1)
+    if number < 0:
+        raise errors.error(MPS_E_ARG, f"{name}: {number}: must be >= 0")
+    return number
+
+
 def _assign(struct: ctypes.Structure, name: str, value: Any) -> None:
     kind = dict((f[0], f[1]) for f in struct._fields_)[name]
     if isinstance(value, str) and kind is ctypes.c_char_p:
-        value = value.encode()
+        value = coded(value)
     elif isinstance(kind, type) and issubclass(kind, ctypes.Array):
         row = getattr(struct, name)
         numbers = np.asarray(value, dtype=float).reshape(-1)
@@ -46,10 +86,10 @@ def _assign(struct: ctypes.Structure, name: str, value: Any) -> None:
         for k, number in enumerate(numbers):
             row[k] = number
         return
-    elif isinstance(value, (bool, np.integer)):
-        value = int(value)
-    elif isinstance(value, np.floating):
-        value = float(value)
+    elif kind in _BITS:
+        value = whole(name, value, _BITS[kind]) if kind not in _UNSIGNED else _unsigned(name, value, _BITS[kind])
+    elif kind in (ctypes.c_double, ctypes.c_float):
+        value = real(name, value)
     try:
         setattr(struct, name, value)
     except (TypeError, ctypes.ArgumentError) as e:
@@ -91,10 +131,14 @@ def make(kind: type[S], given: dict[str, Any] | None = None, what: str = "") -> 
     return one
 
 
+# Entries of the layer below: sizes, functions with their first arguments, buffers of errors.
+_OWN = {"struct_size", "reserved", "error", "error_size", "log", "log_user", "say", "say_user", "user"}
+
+
 @functools.cache
 def _entries(kind: type[ctypes.Structure]) -> dict[str, bool]:
     """Names of the entries that mean something, and whether each is a text that lives elsewhere."""
-    return {f[0]: f[1] is ctypes.c_char_p for f in kind._fields_ if f[0] not in ("struct_size", "reserved")}
+    return {f[0]: f[1] is ctypes.c_char_p for f in kind._fields_ if f[0] not in _OWN}
 
 
 _NUMBERS = {ctypes.c_double: np.float64, ctypes.c_float: np.float32, ctypes.c_int32: np.int32, ctypes.c_int64: np.int64,
@@ -107,18 +151,31 @@ class Record:
 
     _struct: ctypes.Structure
 
+    def _names(self) -> list[str]:
+        struct = self.__dict__.get("_struct")  # one that was copied or unpickled has values alone
+        return list(_entries(type(struct)) if struct is not None else self.__dict__)
+
     def __getattr__(self, name: str) -> Any:
-        struct = self.__dict__.get("_struct")  # a copy that is being made has none
-        raise AttributeError(f"no entry '{name}'; there are {', '.join(_entries(type(struct)) if struct is not None else ())}")
+        raise AttributeError(f"no entry '{name}'; there are {', '.join(self._names())}")
 
     def __dir__(self) -> list[str]:
-        return [*super().__dir__(), *_entries(type(self._struct))]
+        return [*super().__dir__(), *self._names()]
 
     def __iter__(self) -> Iterator[tuple[str, Any]]:
-        return iter([(name, getattr(self, name)) for name in _entries(type(self._struct))])
+        return iter([(name, getattr(self, name)) for name in self._names()])
+
+    def __reduce__(self) -> Any:
+        return _revived, ({name: np.copy(value) if isinstance(value, np.ndarray) else value for name, value in self},)
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {value}" for name, value in self)
+
+
+def _revived(values: dict[str, Any]) -> Record:
+    """A record of values, from a copy or a pickle of one."""
+    one = Record()
+    one.__dict__.update(values)
+    return one
 
 
 class _Entry:
@@ -186,16 +243,20 @@ class Calls:
     def __init__(self) -> None:
         self.kept: dict[str, Any] = {}
         self.failed: BaseException | None = None
+        self.running = 0
 
     def guard(self, function: Callable[..., Any], otherwise: Any) -> Callable[..., Any]:
         def call(*arguments: Any) -> Any:
             if self.failed is not None:
                 return otherwise
+            self.running += 1
             try:
                 return function(*arguments)
             except BaseException as e:  # noqa: BLE001: also KeyboardInterrupt
                 self.failed = e
                 return otherwise
+            finally:
+                self.running -= 1
 
         return call
 

@@ -23,83 +23,19 @@ mps_harmonic._fields_ = [
 mps_body._fields_ = [
     ("struct_size", c_uint32), ("free", c_int32), ("mass", c_double), ("centre_of_mass", c_double * 3), ("inertia", c_double * 9),
     ("stiffness", c_double * 36), ("damping", c_double * 36), ("equilibrium", c_double * 6), ("load", mps_body_load_fn),
-    ("user", c_void_p), ("gravity", c_int32), ("reserved", c_int32),
+    ("user", c_void_p), ("gravity", c_int32), ("reserved", c_int32), ("friction", c_double * 6),
 ]
 mps_body_report._fields_ = [
     ("struct_size", c_uint32), ("free", c_int32), ("pose", c_double * 6), ("velocity", c_double * 6),
     ("acceleration", c_double * 6), ("liquid", c_double * 6), ("external", c_double * 6), ("restoring", c_double * 6),
     ("mass", c_double * 36), ("late", c_double * 6), ("iterations", c_int32), ("reserved", c_int32), ("kinetic", c_double),
     ("spring", c_double), ("weight", c_double), ("damped", c_double), ("external_work", c_double), ("liquid_work", c_double),
-    ("start", c_double),
+    ("start", c_double), ("friction", c_double * 6), ("rubbed", c_double),
 ]
-mps_probe._fields_ = [
-    ("struct_size", c_uint32), ("type", c_int32), ("at", c_double * 3), ("direction", c_double * 3), ("diameter", c_double),
-    ("length", c_double), ("part", c_char_p), ("count_drops", c_int32), ("average", c_double), ("rate", c_double),
-    ("phases", c_uint32), ("name", c_char_p), ("normal", c_double * 3),
-]
-mps_probe_info._fields_ = [
-    ("struct_size", c_uint32), ("type", c_int32), ("name", c_char_p), ("part", c_char_p), ("at", c_double * 3),
-    ("normal", c_double * 3), ("diameter", c_double), ("values", c_int32),
-]
-mps_energy._fields_ = [
-    ("struct_size", c_uint32), ("kinetic", c_double), ("potential", c_double), ("wall_work_momentum", c_double),
-    ("wall_work_probes", c_double), ("viscous", c_double), ("plugins", c_double), ("collision", c_double), ("shift", c_double),
-    ("numerical", c_double), ("mass", c_double), ("volume", c_double), ("volume_error", c_double), ("centre", c_double * 3),
-    ("momentum", c_double * 3), ("added", c_double), ("volume_filled", c_double), ("mass_filled", c_double),
-    ("friction", c_double), ("layers", c_double), ("gas", c_double),
-]
-mps_momentum._fields_ = [
-    ("struct_size", c_uint32), ("total", c_double * 3), ("gravity", c_double * 3), ("force", c_double * 3),
-    ("plugins", c_double * 3), ("reaction", c_double * 3), ("pressure", c_double * 3), ("walls", c_double * 3),
-    ("numerical", c_double * 3), ("collision", c_double * 3), ("shift", c_double * 3), ("added", c_double * 3),
-    ("friction", c_double * 3),
-]
-mps_job_ranks._fields_ = [
-    ("struct_size", c_uint32), ("rank", c_int32), ("count", c_int32), ("user", c_void_p),
-    ("attach", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_sim))),
-    ("largest", CFUNCTYPE(c_int32, c_void_p, c_int32, POINTER(c_int32), c_double)),
-    ("largest_numbers", CFUNCTYPE(None, c_void_p, c_int32, POINTER(c_double))), ("end", CFUNCTYPE(None, c_void_p)),
-    ("abort", CFUNCTYPE(None, c_void_p, c_int32)),
-]
-mps_job_config._fields_ = [
-    ("struct_size", c_uint32), ("resume", c_int32), ("name", c_char_p), ("title", c_char_p), ("command", c_char_p),
-    ("text", c_char_p), ("model", c_char_p), ("folder", c_char_p), ("t_end", c_double), ("row_interval", c_double),
-    ("checkpoint", c_double), ("gravity", c_double), ("average", c_double), ("frames", c_int32), ("picture_count", c_int32),
-    ("picture_t", POINTER(c_double)), ("overwrite", c_int32), ("pieces", c_int32), ("tank_frame", c_int32), ("report", c_int32),
-    ("profile", c_int32), ("quiet", c_int32), ("signals", c_int32), ("trace", c_int32), ("film", c_int32), ("threads", c_int32),
-    ("page_bytes", c_int64), ("ranks", POINTER(mps_job_ranks)), ("say", mps_job_say_fn), ("say_user", c_void_p),
-    ("error", POINTER(c_char)), ("error_size", c_size_t), ("dp", c_double), ("device", c_char_p),
-]
-mps_job_column._fields_ = [
-    ("struct_size", c_uint32), ("flags", c_int32), ("name", c_char_p), ("unit", c_char_p), ("about", c_char_p),
-]
-mps_measure._fields_ = [
-    ("struct_size", c_uint32), ("phase", c_int32), ("axis", c_int32), ("change", c_int32), ("at_end", c_int32),
-    ("measure", c_char_p), ("name", c_char_p), ("about", c_char_p), ("part", c_char_p), ("box", c_double * 6),
-    ("centre", c_double * 3), ("radius", c_double), ("level", c_double), ("smoothing", c_double),
-]
-mps_measure_info._fields_ = [
-    ("struct_size", c_uint32), ("dim", c_int32), ("name", c_char_p), ("unit", c_char_p), ("unit_3d", c_char_p), ("help", c_char_p),
-]
-mps_trace._fields_ = [
-    ("struct_size", c_uint32), ("kind", c_int32), ("name", c_char_p), ("about", c_char_p), ("column", c_char_p),
-    ("from", c_double), ("to", c_double), ("window", c_double), ("scale", c_double),
-]
-mps_reference._fields_ = [
-    ("struct_size", c_uint32), ("line", c_int32), ("label", c_char_p), ("unit", c_char_p), ("column", c_char_p),
-    ("count", c_int64), ("t", POINTER(c_double)), ("value", POINTER(c_double)),
-]
-mps_case_message._fields_ = [
-    ("struct_size", c_uint32), ("warning", c_int32), ("line", c_int32), ("column", c_int32), ("file", c_char_p),
-    ("text", c_char_p), ("source", c_char_p),
-]
-mps_case_key._fields_ = [
-    ("struct_size", c_uint32), ("required", c_int32), ("path", c_char_p), ("range", c_char_p), ("otherwise", c_char_p),
-    ("example", c_char_p), ("help", c_char_p), ("kind", c_char * 96), ("units", c_char * 160),
-]
-mps_load._fields_ = [
-    ("struct_size", c_uint32), ("has_mass", c_int32), ("force", c_double * 6), ("rest", c_double * 6), ("mass", c_double * 36),
-    ("acceleration", c_double * 6), ("dt", c_double), ("iterations", c_int32), ("reserved", c_int32),
+mps_flux._fields_ = [
+    ("struct_size", c_uint32), ("body", c_int32), ("kind", POINTER(c_int32)), ("phase", POINTER(c_int32)),
+    ("density", POINTER(c_double)), ("distance", POINTER(c_double)), ("jump", POINTER(c_double)), ("wetted", POINTER(c_double)),
+    ("tank_acceleration", POINTER(c_double)), ("g", c_double * 3), ("wall_factor", c_double),
 ]
 mps_parallel._fields_ = [
     ("struct_size", c_uint32), ("threads", c_int32), ("run", CFUNCTYPE(None, c_void_p, c_int32, mps_part_fn, c_void_p)),
@@ -114,17 +50,6 @@ mps_parallel_values._fields_ = [
 mps_parallel_reduce_job._fields_ = [
     ("n", c_int64), ("values", POINTER(mps_parallel_values)), ("body", mps_reduce_fn), ("argument", c_void_p),
     ("part", c_double * 16 * 64),
-]
-mps_exact._fields_ = [
-    ("part", c_int64 * 3), ("level", c_int32), ("special", c_int32),
-]
-mps_exact_values._fields_ = [
-    ("sums", c_int32), ("maxima", c_int32), ("sum", POINTER(mps_exact)), ("maximum", POINTER(c_double)),
-]
-mps_flux._fields_ = [
-    ("struct_size", c_uint32), ("body", c_int32), ("kind", POINTER(c_int32)), ("phase", POINTER(c_int32)),
-    ("density", POINTER(c_double)), ("distance", POINTER(c_double)), ("jump", POINTER(c_double)), ("wetted", POINTER(c_double)),
-    ("tank_acceleration", POINTER(c_double)), ("g", c_double * 3), ("wall_factor", c_double),
 ]
 mps_kernel._fields_ = [
     ("struct_size", c_uint32), ("id", c_int32), ("fn", mps_kernel_fn), ("user", c_void_p),
@@ -166,6 +91,192 @@ mps_grid._fields_ = [
 ]
 mps_shared._fields_ = [
     ("values", c_void_p), ("components", c_int32), ("type", c_int32),
+]
+mps_use._fields_ = [
+    ("channel", c_char_p), ("access", c_int32),
+]
+mps_channel._fields_ = [
+    ("name", c_char_p), ("unit", c_char_p), ("help", c_char_p), ("components", c_int32), ("type", c_int32), ("life", c_int32),
+    ("initial", c_double),
+]
+mps_setting._fields_ = [
+    ("key", c_char_p), ("unit", c_char_p), ("help", c_char_p), ("type", c_int32), ("initial", c_double), ("min", c_double),
+    ("max", c_double),
+]
+mps_verb._fields_ = [
+    ("hook", c_int32), ("use_count", c_int32), ("uses", POINTER(mps_use)), ("after", c_char_p), ("before", c_char_p),
+    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))),
+]
+mps_model_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
+    ("channel_count", c_int32), ("verb_count", c_int32), ("part_count", c_int32), ("settings", POINTER(mps_setting)),
+    ("channels", POINTER(mps_channel)), ("verbs", POINTER(mps_verb)),
+    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
+    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p),
+    ("reach", CFUNCTYPE(c_double, POINTER(c_double), c_double)), ("parts", POINTER(c_char_p)),
+    ("check", CFUNCTYPE(c_int, POINTER(c_double), c_int64, POINTER(c_char), c_size_t)),
+]
+mps_exact._fields_ = [
+    ("part", c_int64 * 3), ("level", c_int32), ("special", c_int32),
+]
+mps_exact_values._fields_ = [
+    ("sums", c_int32), ("maxima", c_int32), ("sum", POINTER(mps_exact)), ("maximum", POINTER(c_double)),
+]
+mps_route._fields_ = [
+    ("to_count", c_int32), ("from_count", c_int32), ("to", POINTER(c_int32)), ("sent", POINTER(c_int64)),
+    ("from", POINTER(c_int32)), ("received", POINTER(c_int64)), ("data", c_void_p),
+]
+mps_ranks_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p),
+    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p), POINTER(c_char), c_size_t)),
+    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)),
+    ("place", CFUNCTYPE(None, c_void_p, POINTER(c_int32), POINTER(c_int32))),
+    ("partition", CFUNCTYPE(c_int, c_void_p, c_int32, c_int64, POINTER(c_double), POINTER(c_float))),
+    ("owner", CFUNCTYPE(c_int, c_void_p, c_int64, POINTER(c_double), POINTER(c_int32))),
+    ("overlap", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_int32), POINTER(c_int32))),
+    ("connect", CFUNCTYPE(c_int, c_void_p, c_int32, POINTER(c_int32), POINTER(c_int64), POINTER(mps_route))),
+    ("disconnect", CFUNCTYPE(None, c_void_p, POINTER(mps_route))),
+    ("exchange_begin", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route), c_size_t, c_void_p, c_void_p)),
+    ("exchange_end", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route))),
+    ("reduce", CFUNCTYPE(c_int, c_void_p, c_int32, c_size_t, c_void_p, mps_combine_fn)),
+    ("gather", CFUNCTYPE(c_int, c_void_p, c_void_p, POINTER(c_int64), c_void_p)), ("fail", CFUNCTYPE(None, c_void_p, c_char_p)),
+    ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("user", c_void_p),
+]
+mps_ppe_ranks._fields_ = [
+    ("struct_size", c_uint32), ("rank", c_int32), ("ranks", c_int32), ("reserved", c_int32), ("ghosts", c_int64),
+    ("rows", c_int64), ("first", c_int64), ("order", POINTER(c_int32)),
+    ("owner", CFUNCTYPE(c_int, c_void_p, c_int64, POINTER(c_double), POINTER(c_int32))),
+    ("share", CFUNCTYPE(c_int, c_void_p, POINTER(c_double))),
+    ("reduce", CFUNCTYPE(c_int, c_void_p, c_int32, c_size_t, c_void_p, mps_combine_fn)),
+    ("gather", CFUNCTYPE(c_int, c_void_p, c_void_p, POINTER(c_int64), c_void_p)),
+    ("connect", CFUNCTYPE(c_int, c_void_p, c_int32, POINTER(c_int32), POINTER(c_int64), POINTER(mps_route))),
+    ("disconnect", CFUNCTYPE(None, c_void_p, POINTER(mps_route))),
+    ("exchange", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route), c_size_t, c_void_p, c_void_p)), ("host", c_void_p),
+]
+mps_ppe_problem._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("row", POINTER(c_int64)), ("col", POINTER(c_int32)),
+    ("val", POINTER(c_float)), ("diagonal", POINTER(c_double)), ("rhs", POINTER(c_double)), ("shift", POINTER(c_double)),
+    ("weight", POINTER(c_double)), ("x", POINTER(c_double)), ("dp", c_double), ("tolerance", c_double), ("divergence", c_double),
+    ("max_iterations", c_int32), ("components", c_int32), ("component", POINTER(c_int32)), ("gas", POINTER(c_double)),
+    ("law", POINTER(c_double)), ("parallel", POINTER(mps_parallel)), ("ranks", POINTER(mps_ppe_ranks)),
+]
+mps_ppe_result._fields_ = [
+    ("struct_size", c_uint32), ("reason", c_int32), ("iterations", c_int32), ("reserved", c_int32), ("residual", c_double),
+    ("divergence", c_double), ("setup_seconds", c_double),
+]
+mps_preconditioner_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("symmetric", c_int32),
+    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
+    ("setup", CFUNCTYPE(c_int, c_void_p, POINTER(mps_ppe_problem))),
+    ("apply", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double))),
+    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p), ("help", c_char_p), ("ranks", c_int32),
+    ("reserved", c_int32), ("reach", c_double),
+]
+mps_solver_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("preconditioner", c_char_p), ("symmetric", c_int32),
+    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
+    ("solve", CFUNCTYPE(None, c_void_p, POINTER(mps_ppe_problem), POINTER(mps_preconditioner_ops), c_void_p, POINTER(c_double), POINTER(mps_ppe_result))),
+    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("nonlinear", c_int32), ("user", c_void_p), ("help", c_char_p),
+    ("ranks", c_int32),
+]
+mps_drive_ops._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
+    ("reserved", c_int32), ("settings", POINTER(mps_setting)),
+    ("load", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), c_double, POINTER(mps_motion_state), POINTER(c_double))),
+    ("motion", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), c_double, POINTER(mps_motion_state))),
+    ("period", CFUNCTYPE(c_double, POINTER(c_double))), ("user", c_void_p),
+]
+mps_registry._fields_ = [
+    ("struct_size", c_uint32), ("api", c_uint32), ("host", c_void_p),
+    ("model", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_model_ops))),
+    ("solver", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_solver_ops))),
+    ("preconditioner", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_preconditioner_ops))),
+    ("drive", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_drive_ops))), ("plugin_api", c_uint32), ("reserved", c_int32),
+    ("name", c_char_p), ("version", c_char_p),
+]
+mps_plugin_info._fields_ = [
+    ("struct_size", c_uint32), ("items", c_int32), ("path", c_char_p), ("sha256", c_char_p), ("name", c_char_p),
+    ("version", c_char_p),
+]
+mps_plugin_item._fields_ = [
+    ("struct_size", c_uint32), ("kind", c_int32), ("name", c_char_p), ("help", c_char_p), ("drive", POINTER(mps_drive_ops)),
+]
+mps_probe._fields_ = [
+    ("struct_size", c_uint32), ("type", c_int32), ("at", c_double * 3), ("direction", c_double * 3), ("diameter", c_double),
+    ("length", c_double), ("part", c_char_p), ("count_drops", c_int32), ("average", c_double), ("rate", c_double),
+    ("phases", c_uint32), ("name", c_char_p), ("normal", c_double * 3),
+]
+mps_probe_info._fields_ = [
+    ("struct_size", c_uint32), ("type", c_int32), ("name", c_char_p), ("part", c_char_p), ("at", c_double * 3),
+    ("normal", c_double * 3), ("diameter", c_double), ("values", c_int32),
+]
+mps_energy._fields_ = [
+    ("struct_size", c_uint32), ("kinetic", c_double), ("potential", c_double), ("wall_work_momentum", c_double),
+    ("wall_work_probes", c_double), ("viscous", c_double), ("plugins", c_double), ("collision", c_double), ("shift", c_double),
+    ("numerical", c_double), ("mass", c_double), ("volume", c_double), ("volume_error", c_double), ("centre", c_double * 3),
+    ("momentum", c_double * 3), ("added", c_double), ("volume_filled", c_double), ("mass_filled", c_double),
+    ("friction", c_double), ("layers", c_double), ("gas", c_double),
+]
+mps_momentum._fields_ = [
+    ("struct_size", c_uint32), ("total", c_double * 3), ("gravity", c_double * 3), ("force", c_double * 3),
+    ("plugins", c_double * 3), ("reaction", c_double * 3), ("pressure", c_double * 3), ("walls", c_double * 3),
+    ("numerical", c_double * 3), ("collision", c_double * 3), ("shift", c_double * 3), ("added", c_double * 3),
+    ("friction", c_double * 3),
+]
+mps_job_ranks._fields_ = [
+    ("struct_size", c_uint32), ("rank", c_int32), ("count", c_int32), ("user", c_void_p),
+    ("attach", CFUNCTYPE(c_int32, c_void_p, POINTER(mps_sim))),
+    ("largest", CFUNCTYPE(c_int32, c_void_p, c_int32, POINTER(c_int32), c_double)),
+    ("largest_numbers", CFUNCTYPE(None, c_void_p, c_int32, POINTER(c_double))), ("end", CFUNCTYPE(None, c_void_p)),
+    ("abort", CFUNCTYPE(None, c_void_p, c_int32)),
+]
+mps_job_config._fields_ = [
+    ("struct_size", c_uint32), ("resume", c_int32), ("name", c_char_p), ("title", c_char_p), ("command", c_char_p),
+    ("text", c_char_p), ("model", c_char_p), ("folder", c_char_p), ("t_end", c_double), ("row_interval", c_double),
+    ("checkpoint", c_double), ("gravity", c_double), ("average", c_double), ("frames", c_int32), ("picture_count", c_int32),
+    ("picture_t", POINTER(c_double)), ("overwrite", c_int32), ("pieces", c_int32), ("tank_frame", c_int32), ("report", c_int32),
+    ("profile", c_int32), ("quiet", c_int32), ("signals", c_int32), ("trace", c_int32), ("film", c_int32), ("threads", c_int32),
+    ("page_bytes", c_int64), ("ranks", POINTER(mps_job_ranks)), ("say", mps_job_say_fn), ("say_user", c_void_p),
+    ("error", POINTER(c_char)), ("error_size", c_size_t), ("dp", c_double), ("device", c_char_p), ("peaks", c_int32),
+    ("reserved", c_int32), ("checkpoint_clock", c_double),
+]
+mps_job_column._fields_ = [
+    ("struct_size", c_uint32), ("flags", c_int32), ("name", c_char_p), ("unit", c_char_p), ("about", c_char_p),
+]
+mps_measure._fields_ = [
+    ("struct_size", c_uint32), ("phase", c_int32), ("axis", c_int32), ("change", c_int32), ("at_end", c_int32),
+    ("measure", c_char_p), ("name", c_char_p), ("about", c_char_p), ("part", c_char_p), ("box", c_double * 6),
+    ("centre", c_double * 3), ("radius", c_double), ("level", c_double), ("smoothing", c_double),
+]
+mps_measure_info._fields_ = [
+    ("struct_size", c_uint32), ("dim", c_int32), ("name", c_char_p), ("unit", c_char_p), ("unit_3d", c_char_p), ("help", c_char_p),
+]
+mps_trace._fields_ = [
+    ("struct_size", c_uint32), ("kind", c_int32), ("name", c_char_p), ("about", c_char_p), ("column", c_char_p),
+    ("from", c_double), ("to", c_double), ("window", c_double), ("scale", c_double),
+]
+mps_reference._fields_ = [
+    ("struct_size", c_uint32), ("line", c_int32), ("label", c_char_p), ("unit", c_char_p), ("column", c_char_p),
+    ("count", c_int64), ("t", POINTER(c_double)), ("value", POINTER(c_double)),
+]
+mps_case_message._fields_ = [
+    ("struct_size", c_uint32), ("warning", c_int32), ("line", c_int32), ("column", c_int32), ("file", c_char_p),
+    ("text", c_char_p), ("source", c_char_p),
+]
+mps_case_options._fields_ = [
+    ("struct_size", c_uint32), ("load", c_int32), ("set_count", c_int32), ("plugin_count", c_int32), ("set", POINTER(c_char_p)),
+    ("plugin", POINTER(c_char_p)), ("text", c_char_p), ("size", c_size_t),
+]
+mps_case_cost._fields_ = [
+    ("struct_size", c_uint32), ("reserved", c_int32), ("wall_least", c_double), ("wall_most", c_double), ("memory", c_double),
+]
+mps_case_key._fields_ = [
+    ("struct_size", c_uint32), ("required", c_int32), ("path", c_char_p), ("range", c_char_p), ("otherwise", c_char_p),
+    ("example", c_char_p), ("help", c_char_p), ("kind", c_char * 96), ("units", c_char * 160),
+]
+mps_load._fields_ = [
+    ("struct_size", c_uint32), ("has_mass", c_int32), ("force", c_double * 6), ("rest", c_double * 6), ("mass", c_double * 36),
+    ("acceleration", c_double * 6), ("dt", c_double), ("iterations", c_int32), ("reserved", c_int32),
 ]
 mps_launch._fields_ = [
     ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("file", c_char_p), ("name", c_char_p),
@@ -223,30 +334,6 @@ mps_pass_info._fields_ = [
 mps_name_info._fields_ = [
     ("struct_size", c_uint32), ("active", c_int32), ("name", c_char_p), ("help", c_char_p),
 ]
-mps_use._fields_ = [
-    ("channel", c_char_p), ("access", c_int32),
-]
-mps_channel._fields_ = [
-    ("name", c_char_p), ("unit", c_char_p), ("help", c_char_p), ("components", c_int32), ("type", c_int32), ("life", c_int32),
-    ("initial", c_double),
-]
-mps_setting._fields_ = [
-    ("key", c_char_p), ("unit", c_char_p), ("help", c_char_p), ("type", c_int32), ("initial", c_double), ("min", c_double),
-    ("max", c_double),
-]
-mps_verb._fields_ = [
-    ("hook", c_int32), ("use_count", c_int32), ("uses", POINTER(mps_use)), ("after", c_char_p), ("before", c_char_p),
-    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))),
-]
-mps_model_ops._fields_ = [
-    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
-    ("channel_count", c_int32), ("verb_count", c_int32), ("part_count", c_int32), ("settings", POINTER(mps_setting)),
-    ("channels", POINTER(mps_channel)), ("verbs", POINTER(mps_verb)),
-    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
-    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p),
-    ("reach", CFUNCTYPE(c_double, POINTER(c_double), c_double)), ("parts", POINTER(c_char_p)),
-    ("check", CFUNCTYPE(c_int, POINTER(c_double), c_int64, POINTER(c_char), c_size_t)),
-]
 mps_particle_block._fields_ = [
     ("struct_size", c_uint32), ("kind", c_int32), ("phase", c_int32), ("part", c_char_p), ("count", c_int64),
     ("position", POINTER(c_double)), ("velocity", POINTER(c_double)), ("area", POINTER(c_double)),
@@ -254,26 +341,6 @@ mps_particle_block._fields_ = [
 mps_lease._fields_ = [
     ("struct_size", c_uint32), ("type", c_int32), ("stride", c_int32), ("slot", c_int32), ("count", c_int64),
     ("data", POINTER(c_double)), ("integers", POINTER(c_int32)), ("ids", POINTER(c_int64)),
-]
-mps_route._fields_ = [
-    ("to_count", c_int32), ("from_count", c_int32), ("to", POINTER(c_int32)), ("sent", POINTER(c_int64)),
-    ("from", POINTER(c_int32)), ("received", POINTER(c_int64)), ("data", c_void_p),
-]
-mps_ranks_ops._fields_ = [
-    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p),
-    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p), POINTER(c_char), c_size_t)),
-    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)),
-    ("place", CFUNCTYPE(None, c_void_p, POINTER(c_int32), POINTER(c_int32))),
-    ("partition", CFUNCTYPE(c_int, c_void_p, c_int32, c_int64, POINTER(c_double), POINTER(c_float))),
-    ("owner", CFUNCTYPE(c_int, c_void_p, c_int64, POINTER(c_double), POINTER(c_int32))),
-    ("overlap", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double), POINTER(c_int32), POINTER(c_int32))),
-    ("connect", CFUNCTYPE(c_int, c_void_p, c_int32, POINTER(c_int32), POINTER(c_int64), POINTER(mps_route))),
-    ("disconnect", CFUNCTYPE(None, c_void_p, POINTER(mps_route))),
-    ("exchange_begin", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route), c_size_t, c_void_p, c_void_p)),
-    ("exchange_end", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route))),
-    ("reduce", CFUNCTYPE(c_int, c_void_p, c_int32, c_size_t, c_void_p, mps_combine_fn)),
-    ("gather", CFUNCTYPE(c_int, c_void_p, c_void_p, POINTER(c_int64), c_void_p)), ("fail", CFUNCTYPE(None, c_void_p, c_char_p)),
-    ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("user", c_void_p),
 ]
 mps_ship._fields_ = [
     ("struct_size", c_uint32), ("axes", c_int32), ("degrees", c_int32), ("order", c_int32 * 3), ("forward", c_double * 3),
@@ -325,7 +392,7 @@ mps_comparison._fields_ = [
     ("struct_size", c_uint32), ("reserved", c_int32), ("t_first", c_double), ("t_last", c_double), ("mean", c_double),
     ("rms", c_double), ("rms_first", c_double), ("largest", c_double), ("t_largest", c_double), ("peak", c_double * 2),
     ("t_peak", c_double * 2), ("trough", c_double * 2), ("t_trough", c_double * 2), ("shift", c_double), ("correlation", c_double),
-    ("phase", c_double),
+    ("phase", c_double), ("points", c_int64),
 ]
 mps_convergence._fields_ = [
     ("struct_size", c_uint32), ("kind", c_int32), ("order", c_double), ("limit", c_double), ("band", c_double),
@@ -339,7 +406,7 @@ mps_page_config._fields_ = [
     ("impacts", POINTER(mps_stats_config)),
 ]
 mps_page_info._fields_ = [
-    ("struct_size", c_uint32), ("frames", c_int32), ("bytes", c_int64), ("particles", c_int64), ("left_out", c_char * 240),
+    ("struct_size", c_uint32), ("frames", c_int32), ("bytes", c_int64), ("particles", c_int64), ("left_out", c_char * 320),
 ]
 mps_picture_config._fields_ = [
     ("struct_size", c_uint32), ("width", c_int32), ("title", c_char_p), ("gravity", c_double), ("pressure_lo", c_double),
@@ -349,43 +416,6 @@ mps_picture_config._fields_ = [
 mps_film_config._fields_ = [
     ("struct_size", c_uint32), ("width", c_int32), ("rate", c_double), ("program", c_char_p), ("error", POINTER(c_char)),
     ("error_size", c_size_t),
-]
-mps_ppe_ranks._fields_ = [
-    ("struct_size", c_uint32), ("rank", c_int32), ("ranks", c_int32), ("reserved", c_int32), ("ghosts", c_int64),
-    ("rows", c_int64), ("first", c_int64), ("order", POINTER(c_int32)),
-    ("owner", CFUNCTYPE(c_int, c_void_p, c_int64, POINTER(c_double), POINTER(c_int32))),
-    ("share", CFUNCTYPE(c_int, c_void_p, POINTER(c_double))),
-    ("reduce", CFUNCTYPE(c_int, c_void_p, c_int32, c_size_t, c_void_p, mps_combine_fn)),
-    ("gather", CFUNCTYPE(c_int, c_void_p, c_void_p, POINTER(c_int64), c_void_p)),
-    ("connect", CFUNCTYPE(c_int, c_void_p, c_int32, POINTER(c_int32), POINTER(c_int64), POINTER(mps_route))),
-    ("disconnect", CFUNCTYPE(None, c_void_p, POINTER(mps_route))),
-    ("exchange", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route), c_size_t, c_void_p, c_void_p)), ("host", c_void_p),
-]
-mps_ppe_problem._fields_ = [
-    ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("row", POINTER(c_int64)), ("col", POINTER(c_int32)),
-    ("val", POINTER(c_float)), ("diagonal", POINTER(c_double)), ("rhs", POINTER(c_double)), ("shift", POINTER(c_double)),
-    ("weight", POINTER(c_double)), ("x", POINTER(c_double)), ("dp", c_double), ("tolerance", c_double), ("divergence", c_double),
-    ("max_iterations", c_int32), ("components", c_int32), ("component", POINTER(c_int32)), ("gas", POINTER(c_double)),
-    ("law", POINTER(c_double)), ("parallel", POINTER(mps_parallel)), ("ranks", POINTER(mps_ppe_ranks)),
-]
-mps_ppe_result._fields_ = [
-    ("struct_size", c_uint32), ("reason", c_int32), ("iterations", c_int32), ("reserved", c_int32), ("residual", c_double),
-    ("divergence", c_double), ("setup_seconds", c_double),
-]
-mps_preconditioner_ops._fields_ = [
-    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("symmetric", c_int32),
-    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
-    ("setup", CFUNCTYPE(c_int, c_void_p, POINTER(mps_ppe_problem))),
-    ("apply", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double))),
-    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p), ("help", c_char_p), ("ranks", c_int32),
-    ("reserved", c_int32), ("reach", c_double),
-]
-mps_solver_ops._fields_ = [
-    ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("preconditioner", c_char_p), ("symmetric", c_int32),
-    ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
-    ("solve", CFUNCTYPE(None, c_void_p, POINTER(mps_ppe_problem), POINTER(mps_preconditioner_ops), c_void_p, POINTER(c_double), POINTER(mps_ppe_result))),
-    ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("nonlinear", c_int32), ("user", c_void_p), ("help", c_char_p),
-    ("ranks", c_int32),
 ]
 mps_stats_constant._fields_ = [
     ("struct_size", c_uint32), ("reserved", c_int32), ("key", c_char_p), ("about", c_char_p), ("unit", c_char_p),

@@ -115,49 +115,97 @@ def pairs_of(stencil: Any) -> Pairs:
 
 
 class Stage:
-    """What a verb sees of a step, for the time of its call."""
+    """What a verb sees of a step. Arrays are copies in the present order of the particles, which may be kept after the verb; what was written
+    into those of channels with MPS_USE_WRITE or MPS_USE_CHANGE goes into the library when the verb returns. A stage raises StateError after
+    its verb.
+
+    s["velocity"]     channel of the verb's uses, [n], [n, dim] or [n, dim^2]; all channels: `mps list models`
+    s.setting["rate"] value of a setting
+    s.x, s.kind, s.phase, s.fluid, s.id     positions [n, dim] m; FLUID, WALL or DUMMY; number of the phase; mask of fluid; id
+    s.near, s.far     pairs within re_near and re_far; not in MPS_POPULATE, MPS_LIMIT and MPS_MOTION
+    s.n, s.dim, s.dp, s.g      particles; 2 or 3; spacing [m]; gravity [dim] m/s2
+    s.t, s.dt, s.step, s.hook  time at the beginning of the step [s], its length [s], its number from 1, MPS_POPULATE to MPS_SHIFT
+    s.limit_step(dt)  in MPS_LIMIT: the longest step that is allowed"""
 
     def __init__(self, model: Model, stage: Any, uses: dict[str, int], shapes: dict[str, tuple[int, int]]) -> None:
-        self._stage, self._view = stage, stage.view.contents
-        self._uses, self._shapes = uses, shapes
+        self._open, self._uses, self._shapes = stage, uses, shapes
         self._place = {name: k for k, name in enumerate(uses)}
+        self._arrays: dict[str, np.ndarray] = {}
+        self._views: dict[str, np.ndarray] = {}
         v = self._view
-        self.dim, self.n, self.t, self.dt, self.dp = v.dim, v.n, v.t, v.dt, v.dp
+        self.dim, self.n, self.t, self.dt, self.dp, self.step, self.hook = v.dim, v.n, v.t, v.dt, v.dp, stage.step, stage.hook
         self.g = np.array(v.g)[: v.dim]
         self.setting = {s.key: v.setting[k] for k, s in enumerate(model.settings)}
 
-    def _array(self, start: Any, shape: tuple[int, ...], write: bool = False) -> np.ndarray:
-        view = np.ctypeslib.as_array(start, shape)
-        view.flags.writeable = write
-        return view
+    @property
+    def _stage(self) -> Any:
+        if self._open is None:
+            raise errors.error(N.MPS_E_STATE, "a stage ends with its verb; keep its arrays instead")
+        return self._open
+
+    @property
+    def _view(self) -> Any:
+        return self._stage.view.contents
+
+    def _end(self, done: bool) -> None:
+        """End it; done: give the library what was written."""
+        for name, view in self._views.items() if done else ():
+            view[...] = self._arrays[name]
+        self._open = None
+        self._views = {}
 
     def __getitem__(self, channel: str) -> np.ndarray:
-        """The array of a channel that the verb uses; without a copy."""
+        """The values of a channel that the verb uses."""
+        stage = self._stage
+        if channel in self._arrays:
+            return self._arrays[channel]
         if channel not in self._place:
-            raise errors.UnknownName(f"the verb does not use '{channel}'; it uses {', '.join(self._place)}")
+            raise errors.error(N.MPS_E_NAME, f"the verb does not use '{channel}'; it uses {', '.join(self._place)}")
         components, kind = self._shapes[channel]
         numbers = {N.MPS_VECTOR: self.dim, N.MPS_MATRIX: self.dim**2, N.MPS_SCALAR: 1}.get(components, components)
         rows = 1 if components == N.MPS_SCALAR else self.n
-        start = self._stage.data[self._place[channel]]
+        start = stage.data[self._place[channel]]
         if not start:
-            raise errors.StateError(f"no active model brings '{channel}'")
+            raise errors.error(N.MPS_E_STATE, f"no active model has the channel '{channel}'")
         typed = ctypes.cast(start, POINTER(c_double if kind == N.MPS_TYPE_REAL else c_int32))
-        return self._array(typed, (rows,) if numbers == 1 else (rows, numbers), bool(self._uses[channel] & N.MPS_USE_WRITE))
+        view = np.ctypeslib.as_array(typed, (rows,) if numbers == 1 else (rows, numbers))
+        array = self._arrays[channel] = view.copy()
+        if self._uses[channel] & N.MPS_USE_WRITE:
+            self._views[channel] = view
+        else:
+            array.flags.writeable = False
+        return array
 
-    @property
+    def __setitem__(self, channel: str, values: Any) -> None:
+        """Write a channel: s["acceleration"] += a."""
+        array = self[channel]
+        if values is not array:
+            array[...] = values
+
+    def _rows(self, start: Any, *numbers: int) -> np.ndarray:
+        array = np.ctypeslib.as_array(start, (self.n, *numbers)).copy()
+        array.flags.writeable = False
+        return array
+
+    @cached_property
     def x(self) -> np.ndarray:
-        """[n, dim] positions at the beginning of the step."""
-        return self._array(self._view.x, (self.n, self.dim))
+        """[n, dim] positions at the beginning of the step, in the lab [m]."""
+        return self._rows(self._view.x, self.dim)
 
-    @property
+    @cached_property
     def kind(self) -> np.ndarray:
-        """[n] FLUID, WALL, DUMMY."""
-        return self._array(self._view.kind, (self.n,))
+        """[n] MPS_FLUID, MPS_WALL, MPS_DUMMY."""
+        return self._rows(self._view.kind)
 
-    @property
+    @cached_property
     def phase(self) -> np.ndarray:
-        """[n] number of the phase."""
-        return self._array(self._view.phase, (self.n,))
+        """[n] number of the phase of fluid particles."""
+        return self._rows(self._view.phase)
+
+    @cached_property
+    def id(self) -> np.ndarray:
+        """[n] id, which stays with the particle."""
+        return self._rows(self._view.id)
 
     @cached_property
     def fluid(self) -> np.ndarray:
@@ -167,52 +215,68 @@ class Stage:
     @cached_property
     def near(self) -> Pairs:
         """Pairs within re_near."""
-        return pairs_of(self._view.near)
+        return self._pairs(self._view.near)
 
     @cached_property
     def far(self) -> Pairs:
         """Pairs within re_far."""
-        return pairs_of(self._view.far)
+        return self._pairs(self._view.far)
+
+    def _pairs(self, stencil: Any) -> Pairs:
+        if not stencil.begin or not stencil.x:
+            raise errors.error(N.MPS_E_STATE, "there are no pairs in MPS_POPULATE, MPS_LIMIT and MPS_MOTION")
+        return pairs_of(stencil)
 
     def limit_step(self, dt: float) -> None:
         """In MPS_LIMIT: the longest step allowed [s]."""
-        self._stage.dt_limit = min(self._stage.dt_limit, dt)
+        stage = self._stage
+        if stage.hook != N.MPS_LIMIT:
+            raise errors.error(N.MPS_E_STATE, "limit_step() is for MPS_LIMIT")
+        stage.dt_limit = min(stage.dt_limit, dt)
 
 
-def _known_channels(sim: Simulation) -> dict[str, tuple[int, int]]:
+def _known_channels(handle: Any) -> dict[str, tuple[int, int]]:
     """Components and type of all channels."""
     info, found, index = make(T.mps_channel_info), {}, 0
-    while c.mps_channel_info_get(sim.handle, index, byref(info)) == 0:
+    while c.mps_channel_info_get(handle, index, byref(info)) == 0:
         found[text(info.name)] = (info.components, info.type)
         index += 1
     return found
 
 
 def _verbs(model: Model) -> list[tuple[Any, tuple[int, str | None, str | None, dict[str, int]]]]:
-    methods = [getattr(model, name) for name in vars(type(model))]
-    return [(m, m.verb) for m in methods if hasattr(m, "verb")]
+    """Methods with @verb, those of base classes too, in the order of their definition."""
+    names = dict.fromkeys(name for kind in reversed(type(model).__mro__) for name in vars(kind))
+    methods = [getattr(model, name) for name in names]
+    return [(m, m.verb) for m in methods if callable(m) and hasattr(m, "verb")]
 
 
 def _run(sim: Simulation, model: Model, method: Any, uses: dict[str, int]) -> Any:
-    def call(stage: Any) -> int:
-        shapes = sim._calls.kept.setdefault("channels", {})
+    calls, handle = sim._calls, sim.handle  # not the simulation itself, which would then be freed by the collector alone
+
+    def call(pointer: Any) -> int:
+        shapes = calls.kept.setdefault("channels", {})
         if not set(uses) <= set(shapes):
-            shapes.update(_known_channels(sim))
+            shapes.update(_known_channels(handle))
+        stage = Stage(model, pointer.contents, uses, shapes)
+        done = False
         try:
-            method(Stage(model, stage.contents, uses, shapes))
+            method(stage)
+            done = True
         except Exception as e:
-            sim._calls.failed = e
-            c.mps_stage_fail(stage, f"{type(e).__name__}: {e}".replace("%", "%%").encode())
-            return 1
-        return 0
+            calls.failed = e
+            c.mps_stage_fail(pointer, f"{type(e).__name__}: {e}".replace("%", "%%").encode())
+        finally:
+            stage._end(done)
+        return 0 if done else 1
 
-    return sim._calls.guard(call, 1)
+    return calls.guard(call, 1)
 
 
-def register(sim: Simulation, model: Model) -> str:
-    """Register a model on a simulation. Returns its name."""
+def _tables(sim: Simulation, model: Model) -> tuple[Any, list[Any]]:
+    """The table of a model, and what it points to."""
     found = _verbs(model)
-    kept: list[Any] = []
+    kept: list[Any] = [model]
     verbs = (T.mps_verb * max(len(found), 1))()
     run_type = dict(T.mps_verb._fields_)["run"]
     for k, (method, (hook, after, before, uses)) in enumerate(found):
@@ -228,7 +292,18 @@ def register(sim: Simulation, model: Model) -> str:
     ops = T.mps_model_ops(struct_size=ctypes.sizeof(T.mps_model_ops), api=N.MPS_MODEL_API, name=model.name.encode(),
                           help=model.help.encode(), setting_count=len(model.settings), channel_count=len(model.channels),
                           verb_count=len(found), settings=settings, channels=channels, verbs=verbs)
-    sim._calls.kept[f"model {model.name}"] = (model, ops, verbs, settings, channels, kept)  # the library keeps pointers to them
-    sim._calls.kept.pop("channels", None)
+    return ops, [*kept, ops, verbs, settings, channels]
+
+
+def register(sim: Simulation, model: Model) -> str:
+    """Register a model on a simulation, unless it is. Returns its name."""
+    if not isinstance(model, Model):
+        raise errors.error(N.MPS_E_ARG, f"a model is a name such as 'gas.pocket' or an object of a class of mps.Model, not {model!r}")
+    key = f"model {model.name}"
+    if key in sim._calls.kept and sim._calls.kept[key][0] is model:
+        return model.name
+    ops, kept = _tables(sim, model)
     sim.check(c.mps_model_register(sim.handle, byref(ops)))
+    sim._calls.kept[key] = kept  # the library keeps pointers to them
+    sim._calls.kept.pop("channels", None)
     return model.name

@@ -10,6 +10,7 @@ import numpy as np
 from . import _numbers as N
 from . import _structs as T
 from . import errors
+from ._held import Held, Owner
 from ._library import c
 from ._records import make, pointer, text
 from .model import Pairs, pairs_of
@@ -20,7 +21,7 @@ def lattice_constants(dim: int, dp: float, re: float, kernel: str = "improved") 
     one, n0, lam = _kernel(kernel), c_double(), c_double()
     status = c.mps_lattice_constants(byref(one), dim, dp, re, byref(n0), byref(lam))
     if status < 0:
-        raise errors.error(status)
+        raise errors.error(status, f"dim {dim}, dp {dp:g} m, re {re:g} m: dim is 2 or 3, dp > 0, and re is above dp and finite")
     return n0.value, lam.value
 
 
@@ -32,37 +33,42 @@ def _kernel(name: str) -> Any:
     return one
 
 
-class Cloud:
+class Cloud(Owner):
     """Particles at x [n, dim] with their neighbours within re_near and re_far [m]; 2.1 dp and 3.1 dp unless given."""
 
     def __init__(self, x: Any, dp: float, re_near: float = 0.0, re_far: float = 0.0, kernel: str = "improved") -> None:
-        self.x = np.ascontiguousarray(x, dtype=float)
+        self._x = self.x = np.array(x, dtype=float, order="C")  # the library borrows its memory
+        self.x.flags.writeable = False
         if self.x.ndim != 2 or self.x.shape[1] not in (2, 3):
             raise errors.ArgumentError(f"x has the shape {self.x.shape}; (n, 2) and (n, 3) are allowed")
         self.dim, self.n = self.x.shape[1], len(self.x)
-        self._list = POINTER(T.mps_neighbours)()
-        self._check(c.mps_neighbours_create(self.dim, dp, None, byref(self._list)))
+        list_ = POINTER(T.mps_neighbours)()
+        status = c.mps_neighbours_create(self.dim, dp, None, byref(list_))
+        if status < 0:
+            raise errors.error(status, f"dp is {dp:g} m: must be > 0 and finite" if status == N.MPS_E_ARG else "")
+        self._held = Held("cloud", list_, c.mps_neighbours_destroy)
         near = re_near or 2.1 * dp
-        self._check(c.mps_neighbours_build(self._list, self.n, pointer(self.x), near, re_far or max(near, 3.1 * dp)))
+        self._check(c.mps_neighbours_build(self._held.pointer, self.n, pointer(self._x), near, re_far or max(near, 3.1 * dp)))
         self._kernel = _kernel(kernel)
         self._stencils = {which: self._stencil(which) for which in (N.MPS_NEAR, N.MPS_FAR)}
 
     def _check(self, status: int) -> None:
         if status < 0:
-            raise errors.error(status, text(c.mps_neighbours_error(self._list)) if self._list else "")
+            raise errors.error(status, text(c.mps_neighbours_error(self._held.pointer)))
 
     def _stencil(self, which: int) -> Any:
         stencil = make(T.mps_stencil)
-        self._check(c.mps_neighbours_stencil_get(self._list, which, byref(self._kernel), byref(stencil)))
+        self._check(c.mps_neighbours_stencil_get(self._held.pointer, which, byref(self._kernel), byref(stencil)))
         return stencil
-
-    def __del__(self) -> None:
-        if getattr(self, "_list", None):
-            c.mps_neighbours_destroy(self._list)
 
     def pairs(self, far: bool = False) -> Pairs:
         """All pairs."""
-        return pairs_of(self._stencils[int(far)])
+        return pairs_of(self._of(far))
+
+    def _of(self, far: bool) -> Any:
+        """A stencil, which points into the library's list; refused where that is closed."""
+        _ = self._held.pointer
+        return self._stencils[int(far)]
 
     def _field(self, values: Any, numbers: int, name: str) -> np.ndarray:
         array = np.ascontiguousarray(values, dtype=float)
@@ -72,7 +78,7 @@ class Cloud:
 
     def _apply(self, name: str, numbers: int, *given: np.ndarray, far: bool = False) -> np.ndarray:
         out = np.empty((self.n,) if numbers == 1 else (self.n, numbers))
-        self._check(getattr(c, name)(byref(self._stencils[int(far)]), *[pointer(g) for g in given], pointer(out)))
+        self._check(getattr(c, name)(byref(self._of(far)), *[pointer(g) for g in given], pointer(out)))
         return out
 
     def number_density(self, far: bool = False) -> np.ndarray:
@@ -111,5 +117,5 @@ class Cloud:
     def correction(self, floor: float = 0.2) -> np.ndarray:
         """B of the corrected operators [n, dim*dim]."""
         out = np.empty((self.n, self.dim**2))
-        self._check(c.mps_op_correction(byref(self._stencils[0]), floor, pointer(out)))
+        self._check(c.mps_op_correction(byref(self._of(False)), floor, pointer(out)))
         return out

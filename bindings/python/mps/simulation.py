@@ -6,6 +6,7 @@ import ctypes
 import warnings
 from collections.abc import Callable, Iterator
 from ctypes import POINTER, byref, c_double, c_int32, c_int64
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -15,9 +16,10 @@ from . import errors
 from . import _structs as T
 from ._couple import Coupling
 from ._geometry import Geometry
+from ._held import Held, Owner
 from ._library import c
 from ._motion import Motion
-from ._records import Calls, Record, coded, copied, make, pointer, record, text
+from ._records import Calls, Record, coded, copied, make, pointer, real, record, text, whole
 from .lease import Lease
 from .model import Model, register
 from .probe import Probe
@@ -26,43 +28,66 @@ _PROBES = {"wall_pressure": N.MPS_PROBE_WALL_PRESSURE, "fluid_pressure": N.MPS_P
            "force": N.MPS_PROBE_FORCE}
 
 
-class Simulation(Geometry, Motion, Coupling):
+def _message(log: Callable[[int, str], None] | None) -> Callable[[Any, int, bytes], None]:
+    """What gets texts of the library. It does not refer to the simulation, which would then be freed by the collector alone."""
+    def call(_user: Any, level: int, what: bytes) -> None:
+        if log is not None:
+            log(level, text(what))
+        elif level >= N.MPS_LOG_WARNING:
+            warnings.warn(errors.in_python(text(what)), stacklevel=4)
+
+    return call
+
+
+class Simulation(Geometry, Motion, Coupling, Owner):
     """An MPS simulation. Keywords are the entries of mps_config, with its defaults: Simulation(dp=0.01, dim=2, threads=2).
 
     preset: "imps" (one liquid with a free surface), "mmps" (liquid and gas), "imps.paper", "mmps.paper".
     log: a function of (level, text), or None for no log; warnings of the library become warnings of Python.
 
-    Arrays are [particles] or [particles, numbers], in SI units. One thread at a time may use a simulation."""
+    Arrays are [particles] or [particles, numbers], in SI units. One thread at a time may use a simulation.
 
-    def __init__(self, *, preset: str = "imps", log: Callable[[int, str], None] | None = None, **config: Any) -> None:
-        self.handle: Any = None
-        self._calls, self._log = Calls(), log
-        self._owner: Any = None
+    `with mps.Simulation(dp=0.01) as sim:` closes it at the end, with its frames, snapshots and leases; else Python does so when nothing
+    refers to it any more. A closed simulation raises StateError. close() within a call of the library raises BusyError. It cannot be copied
+    or pickled: snapshot() keeps a state in memory, checkpoint() in a file."""
+
+    _instead = "; snapshot() keeps a state in memory, checkpoint() in a file; in each process of multiprocessing build a simulation"
+
+    def __init__(self, dp: float | None = None, *, preset: str = "imps", log: Callable[[int, str], None] | None = None, **config: Any) -> None:
+        if dp is None:
+            raise errors.error(N.MPS_E_ARG, "Simulation: dp, the spacing of the particles [m], is missing: Simulation(dp=0.01)")
+        config["dp"] = dp
+        self._calls = Calls()
         error = ctypes.create_string_buffer(1024)
         one = make(T.mps_config, config, "Simulation")
-        self._calls.kept["log"] = one.log = T.mps_log_fn(self._calls.guard(self._message, None))
+        self._calls.kept["log"] = one.log = T.mps_log_fn(self._calls.guard(_message(log), None))
         one.error, one.error_size = ctypes.cast(error, POINTER(ctypes.c_char)), len(error)
         handle = POINTER(T.mps_sim)()
         status = c.mps_sim_create(byref(one), byref(handle))
         if status < 0:
             raise errors.error(status, text(error.value))
-        self.handle = handle
+        self._held = Held("simulation", handle, c.mps_sim_destroy, calls=self._calls)
         self.preset(preset)
 
     @classmethod
-    def adopt(cls, handle: Any, owner: Any = None) -> Simulation:
-        """A simulation that something else made, and destroys."""
+    def adopt(cls, handle: Any, owner: Owner | None = None) -> Simulation:
+        """A simulation that something else made, and destroys: `owner`, which is closed after it."""
         sim = cls.__new__(cls)
-        sim.handle, sim._calls, sim._log, sim._owner = handle, Calls(), None, owner if owner is not None else handle
+        sim._calls, sim._owner = Calls(), owner
+        sim._held = Held("simulation", handle, lambda _: None, owner._held if owner is not None else None, sim._calls)
         return sim
 
-    def _message(self, _user: Any, level: int, what: bytes) -> None:
-        if self._log is not None:
-            self._log(level, text(what))
-        elif level >= N.MPS_LOG_WARNING:
-            warnings.warn(text(what), stacklevel=3)
+    @property
+    def handle(self) -> Any:
+        """The simulation, for functions of C: mps.c.mps_step(sim.handle, ...)."""
+        return self._held.pointer
 
-    # ---- errors and life
+    def __repr__(self) -> str:
+        if self.closed:
+            return "<mps.Simulation, closed>"
+        return f"<mps.Simulation, {self.dim}-D, dp {self.dp:g} m, {self.count()} particles, t = {self.t:g} s, {self.steps} steps>"
+
+    # ---- errors
 
     def failure(self, status: int) -> errors.Error:
         """The exception of a status of this simulation."""
@@ -82,22 +107,6 @@ class Simulation(Geometry, Motion, Coupling):
         if status == N.MPS_W_NOT_CONVERGED:
             warnings.warn(text(c.mps_status_text(status)), errors.NotConverged, stacklevel=3)
         return status
-
-    def close(self) -> None:
-        """Give back the memory. The simulation must not be used after it."""
-        if self.handle is not None and self._owner is None:
-            c.mps_sim_destroy(self.handle)
-        self.handle = None
-
-    def __enter__(self) -> Simulation:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
-
-    def __del__(self) -> None:
-        if getattr(self, "handle", None) is not None:
-            self.close()
 
     # ---- what it is
 
@@ -131,17 +140,17 @@ class Simulation(Geometry, Motion, Coupling):
 
     def threads(self, number: int) -> None:
         """Number of threads. Results do not depend on it."""
-        self.check(c.mps_threads_set(self.handle, number))
+        self.check(c.mps_threads_set(self.handle, whole("threads", number)))
 
     # ---- phases, models, solver
 
     def phase(self, index: int = 0, **entries: float) -> None:
         """Properties of a phase: density [kg/m3], viscosity [Pa s]."""
-        self.check(c.mps_phase_set(self.handle, index, byref(make(T.mps_phase, entries, "phase"))))
+        self.check(c.mps_phase_set(self.handle, whole("phase", index), byref(make(T.mps_phase, entries, "phase"))))
 
     def tension(self, a: int, b: int, sigma: float) -> None:
         """Surface tension between two phases [N/m]."""
-        self.check(c.mps_tension_set(self.handle, a, b, sigma))
+        self.check(c.mps_tension_set(self.handle, whole("a", a), whole("b", b), real("sigma", sigma)))
 
     def preset(self, name: str) -> None:
         """Replace all models by those of a preset."""
@@ -160,7 +169,7 @@ class Simulation(Geometry, Motion, Coupling):
 
     def set(self, slot: str, key: str, value: float) -> None:
         """Change a setting of the model of a slot."""
-        self.check(c.mps_model_set(self.handle, coded(slot), coded(key), value))
+        self.check(c.mps_model_set(self.handle, coded(slot), coded(key), real(key, value)))
 
     def get(self, slot: str, key: str) -> float:
         """A setting of the model of a slot."""
@@ -214,11 +223,11 @@ class Simulation(Geometry, Motion, Coupling):
 
     def count(self, kind: int = -1) -> int:
         """Number of particles: of FLUID, WALL, DUMMY, or of all."""
-        return c.mps_particles_count(self.handle, kind)
+        return c.mps_particles_count(self.handle, whole("kind", kind))
 
     def add_field(self, name: str, components: int = 1) -> None:
         """A field of yours, which travels with the particles."""
-        self.check(c.mps_field_add(self.handle, coded(name), components))
+        self.check(c.mps_field_add(self.handle, coded(name), whole("components", components)))
 
     def add_particles(self, position: Any, velocity: Any = None, area: Any = None, **entries: Any) -> np.ndarray:
         """Add particles at [n, dim], with entries kind, phase, part of mps_particle_block. Returns their ids."""
@@ -244,18 +253,20 @@ class Simulation(Geometry, Motion, Coupling):
     def step(self, dt_max: float = 1e30) -> Record:
         """One step of at most dt_max [s]; returns mps_step_info."""
         info = make(T.mps_step_info)
-        self.check(c.mps_step(self.handle, dt_max, byref(info)))
+        with self._held as handle:
+            self.check(c.mps_step(handle, real("dt_max", dt_max), byref(info)))
         return record(info)
 
     def run(self, t_end: float, monitor: Callable[[Simulation, Record], object] | None = None) -> bool:
-        """Step until t_end [s]. monitor(sim, info) is called after each step; it stops the run by returning True.
-        Returns whether t_end was reached."""
+        """Step until t_end [s]. monitor(sim, info) is called after each step: True stops the run, False and None continue it, as in C
+        and C++. Returns whether t_end was reached."""
         def call(_user: Any, _sim: Any, info: Any) -> int:
             return 1 if monitor is not None and monitor(self, record(copied(info.contents))) else 0
 
         # a callback without a monitor too: it lets Python see Ctrl-C
         function = T.mps_monitor_fn(self._calls.guard(call, 1))
-        return self.check(c.mps_run(self.handle, t_end, function, None)) != N.MPS_W_STOPPED
+        with self._held as handle:
+            return self.check(c.mps_run(handle, real("t_end", t_end), function, None)) != N.MPS_W_STOPPED
 
     # ---- measures
 
@@ -284,8 +295,9 @@ class Simulation(Geometry, Motion, Coupling):
 
     # ---- files
 
-    def frames(self, folder: str, name: str = "frames", kinds: int = 0) -> Frames:
-        """A series of frames for ParaView: `with sim.frames("out") as f: f.write()`."""
+    def frames(self, folder: str | Path, name: str = "frames", kinds: int = 0) -> Frames:
+        """A series of frames for ParaView: `with sim.frames("out") as f: f.write()`. The folder is made. kinds: sum of MPS_FRAMES_...; 0: fluid
+        and walls. mps.Frame reads them."""
         return Frames(self, folder, name, kinds)
 
     def checkpoint(self, path: str) -> None:
@@ -297,27 +309,22 @@ class Simulation(Geometry, Motion, Coupling):
         self.check(c.mps_checkpoint_read(self.handle, coded(path)))
 
 
-class Frames:
-    """A series of frames for ParaView."""
+class Frames(Owner):
+    """A series of frames for ParaView; it belongs to its simulation."""
 
-    def __init__(self, sim: Simulation, folder: str, name: str, kinds: int) -> None:
-        self._sim, self._frames = sim, POINTER(T.mps_frames)()
-        sim.check(c.mps_frames_open(sim.handle, coded(folder), coded(name), kinds, byref(self._frames)))
+    def __init__(self, sim: Simulation, folder: str | Path, name: str, kinds: int) -> None:
+        self._sim, frames = sim, POINTER(T.mps_frames)()
+        try:
+            Path(folder).mkdir(parents=True, exist_ok=True)
+        except (OSError, ValueError) as e:
+            raise errors.error(N.MPS_E_IO, f"the folder {str(folder)!r} cannot be made: {e}") from None
+        sim.check(c.mps_frames_open(sim.handle, coded(str(folder)), coded(name), whole("kinds", kinds), byref(frames)))
+        self._held = Held("series of frames", frames, c.mps_frames_close, sim._held)
 
     def write(self) -> None:
         """Write the present state."""
-        self._sim.check(c.mps_frames_write(self._frames))
-
-    def close(self) -> None:
-        """Close the series."""
-        c.mps_frames_close(self._frames)
-        self._frames = POINTER(T.mps_frames)()
-
-    def __enter__(self) -> Frames:
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.close()
+        with self._held as frames:
+            self._sim.check(c.mps_frames_write(frames))
 
 
 def catalogue(sim: Simulation) -> Iterator[tuple[str, str]]:

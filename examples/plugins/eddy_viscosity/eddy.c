@@ -7,6 +7,7 @@
  * they would count a slip as shear; there is no wall law.
  * cs = 0 gives the viscosity of the phase. */
 #include "eddy.h"
+#include <mps/plugin.h>
 #include <stdbool.h>
 
 enum { CS, SETTINGS };
@@ -157,3 +158,10 @@ const mps_model_ops eddy_smagorinsky = {.struct_size = sizeof(mps_model_ops),
                                         .channels = channels,
                                         .verb_count = 2,
                                         .verbs = verbs};
+
+/* As a plug-in of a case. */
+mps_status mps_plugin(mps_registry *r)
+{
+    const mps_status status = mps_plugin_begin(r, "eddy_viscosity", "1.0");
+    return status < 0 ? status : r->model(r->host, &eddy_smagorinsky);
+}

@@ -8,6 +8,7 @@
  * The rows that came so far are a channel, so that checkpoints have them. Every particle has the
  * number, because a value for all particles lives for a step only; the largest one counts. */
 #include "inflow.h"
+#include <mps/plugin.h>
 #include <stdbool.h>
 
 enum { X, Y, Z, U, V, W, WIDTH, START, STOP, PHASE, X0, Y0, Z0, X1, Y1, Z1, SETTINGS };
@@ -216,3 +217,10 @@ const mps_model_ops inflow_jet = {.struct_size = sizeof(mps_model_ops),
                                   .channels = channels,
                                   .verb_count = 3,
                                   .verbs = verbs};
+
+/* As a plug-in of a case. */
+mps_status mps_plugin(mps_registry *r)
+{
+    const mps_status status = mps_plugin_begin(r, "inflow", "1.0");
+    return status < 0 ? status : r->model(r->host, &inflow_jet);
+}

@@ -6,6 +6,7 @@
  * it tells the library what it does to the fluid, as the part "baffle". */
 #include "baffle.h"
 #include <math.h>
+#include <mps/plugin.h>
 #include <mps/reaction.h>
 
 enum { FROM, TO, DARCY, FORCHHEIMER, SETTINGS };
@@ -67,3 +68,10 @@ const mps_model_ops baffle_porous = {.struct_size = sizeof(mps_model_ops),
                                      .verbs = verbs,
                                      .part_count = 1,
                                      .parts = parts};
+
+/* As a plug-in of a case. */
+mps_status mps_plugin(mps_registry *r)
+{
+    const mps_status status = mps_plugin_begin(r, "porous_baffle", "1.0");
+    return status < 0 ? status : r->model(r->host, &baffle_porous);
+}

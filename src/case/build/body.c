@@ -2,6 +2,7 @@
 /* `body`: a rigid body that the library moves with the liquid. Its degrees are those of a ship, along axes that are parallel to those of the
  * tank. */
 #include "body.h"
+#include "drive.h"
 #include "pendulum.h"
 #include "sensor_load.h"
 #include <math.h>
@@ -95,6 +96,8 @@ static void read_spring(build *b, build_body *body, const tree_node *node, int32
     body->body.free |= MPS_BODY_FREE(dof);
     body->body.stiffness[7 * dof] = spring;
     body->body.damping[7 * dof] = damping;
+    body->friction[degree] = mps__read_number(b->c, node, "friction", 0);
+    body->body.friction[dof] = body->friction[degree];
 }
 
 static void read_degree(build *b, build_body *body, const tree_node *map, int32_t degree)
@@ -120,42 +123,31 @@ static void read_degree(build *b, build_body *body, const tree_node *map, int32_
 
 /* ---- loads ---- */
 
-/* Of the table at a time, linear; before its first row and behind its last as there. */
-static double table_at(const build_motion *m, int32_t degree, double t)
-{
-    int64_t low = 0, high = m->rows - 1;
-    if (m->rows == 0) return 0;
-    if (t >= m->t[high]) return m->column[6 * high + degree];
-    if (t <= m->t[0]) return m->column[degree];
-    while (high - low > 1) {
-        const int64_t middle = (low + high) / 2;
-        if (m->t[middle] <= t)
-            low = middle;
-        else
-            high = middle;
-    }
-    const double f = (t - m->t[low]) / (m->t[high] - m->t[low]);
-    return (1 - f) * m->column[6 * low + degree] + f * m->column[6 * high + degree];
-}
-
 static int load_at(void *user, double t, const mps_motion_state *state, double load[6])
 {
     const build_body *body = user;
-    (void)state;
+    if (body->drive && mps__drive_load(body->drive, t, state, load) != 0) return 1;
     for (int32_t d = 0; d < MOTION_DEGREES; d++) {
         double q[3], sign;
         int32_t dof;
         if (!body->load.used[d]) continue;
         mps__harmonics_at(&body->load, d, t, q);
         mps__degree_to_lab(&body->axes, d, &dof, &sign);
-        load[dof] += sign * (q[0] + table_at(&body->load, d, t));
+        load[dof] += sign * (q[0] + mps__motion_table_at(&body->load, d, t));
     }
     return 0;
 }
 
+/* A table, a load of a plug-in, or both. */
 static void read_table(build *b, build_body *body, const tree_node *map)
 {
     bool used[MOTION_DEGREES];
+    const bool file = mps__tree_find(map, "file") != NULL;
+    body->drive = mps__drive_read(b, map, MPS_PLUGIN_LOAD);
+    if (!file && !mps__tree_find(map, "plugin"))
+        mps__case_say(b->c, map, false,
+                      "body.load: give 'file', a table, or 'plugin', a load of a plug-in");
+    if (!file) return;
     memcpy(used, body->load.used, sizeof used);
     memset(body->load.used, 0, sizeof used);
     body->load.of = "body.load";
@@ -175,6 +167,7 @@ static void read_table(build *b, build_body *body, const tree_node *map)
 static double longest_step(const build *b, const build_body *body)
 {
     double least = fmin(mps__shortest_period(&body->load), b->until);
+    least = fmin(least, mps__drive_period(body->drive));
     for (int32_t d = 0; d < MOTION_DEGREES; d++)
         if (body->axes.used[d] && body->mass[d] > 0 && body->stiffness[d] > 0)
             least = fmin(least, 2 * acos(-1.0) * sqrt(body->mass[d] / body->stiffness[d]));
@@ -218,10 +211,10 @@ void mps__build_body(build *b)
 /* ---- columns ---- */
 
 typedef enum body_value {
-    BODY_POSE,
     BODY_RATE,
     BODY_LIQUID,
     BODY_EXTERNAL,
+    BODY_FRICTION,
     BODY_VALUES
 } body_value;
 
@@ -238,41 +231,57 @@ static double column_value(void *user, mps_sim *sim)
     mps_body_report r;
     mps_body_report_init(&r, sizeof r);
     if (mps_body_get(sim, &r) < 0) return NAN;
-    const double *from[BODY_VALUES] = {r.pose, r.velocity, r.liquid, r.external};
+    const double *from[BODY_VALUES] = {r.velocity, r.liquid, r.external, r.friction};
     return k->factor * from[k->what][k->dof];
 }
 
 static bool add_column(const sensing *s, int32_t degree, body_value what)
 {
-    static const char *const name[] = {"body_", "body_rate_", "body_liquid_", "body_external_"},
-                             *const about[] = {"Displacement of the body", "Velocity of the body",
-                                               "Load of the liquid on the body",
-                                               "External load on the body"};
+    static const char *const name[] = {"body_rate_", "body_liquid_", "body_external_",
+                                       "body_friction_"},
+                             *const about[] = {
+                                 "Velocity of the body", "Load of the liquid on the body",
+                                 "External load on the body", "Dry friction on the body"};
     static const char *const unit[2][2][BODY_VALUES] = {
-        {{"m", "m/s", "N/m", "N/m"}, {"deg", "deg/s", "N m/m", "N m/m"}},
-        {{"m", "m/s", "N", "N"}, {"deg", "deg/s", "N m", "N m"}}};
+        {{"m/s", "N/m", "N/m", "N/m"}, {"deg/s", "N m/m", "N m/m", "N m/m"}},
+        {{"m/s", "N", "N", "N"}, {"deg/s", "N m", "N m", "N m"}}};
     const bool turn = degree >= MPS_SHIP_ROLL;
     char column[2 * BUILD_NAME], text[BUILD_TEXT];
     body_column *k = mps__build_alloc(s->b, sizeof *k);
     if (!k) return false;
     k->what = what;
     mps__degree_to_lab(s->b->motion, degree, &k->dof, &k->factor);
-    if (turn && what <= BODY_RATE) k->factor *= 180 / acos(-1.0);
+    if (turn && what == BODY_RATE) k->factor *= 180 / acos(-1.0);
     snprintf(column, sizeof column, "%s%s", name[what], mps__degrees[degree]);
     snprintf(text, sizeof text, "%s, %s: %saxes of the lab", about[what], mps__degrees[degree],
              turn                ? "about its centre, "
-             : what <= BODY_RATE ? "of its centre, "
+             : what == BODY_RATE ? "of its centre, "
                                  : "");
     return mps__sensor_value(s, column, unit[s->b->dim - 2][turn][what], text, column_value, k);
+}
+
+static double rubbed(void *user, mps_sim *sim)
+{
+    mps_body_report r;
+    (void)user;
+    mps_body_report_init(&r, sizeof r);
+    return mps_body_get(sim, &r) < 0 ? NAN : r.rubbed;
 }
 
 void mps__body_columns(build *b)
 {
     const sensing s = {b, mps__tree_find(b->root, "body"), false};
+    bool rubs = false;
     if (!b->body || b->status < 0) return;
     for (int32_t d = 0; d < MOTION_DEGREES; d++)
-        for (body_value what = BODY_POSE; b->motion->used[d] && what < BODY_VALUES; what++)
+        for (body_value what = BODY_RATE; b->motion->used[d] && what < BODY_VALUES; what++) {
+            if (what == BODY_FRICTION && !(b->body->friction[d] > 0)) continue;
+            rubs = rubs || what == BODY_FRICTION;
             if (!add_column(&s, d, what)) return;
+        }
+    if (rubs)
+        mps__sensor_value(&s, "body_rubbed", b->dim == 3 ? "J" : "J/m",
+                          "Energy lost by dry friction of the body: since the start", rubbed, NULL);
 }
 
 /* ---- natural periods ---- */

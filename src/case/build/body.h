@@ -7,9 +7,12 @@
 
 typedef struct build_body {
     mps_body body;
-    build_motion axes, load; /* load: harmonics or a table, by degrees of the ship */
-    /* By degree of the ship, of the body without liquid: mass or inertia about the centre, stiffness with the part of its weight, damping. */
-    double mass[MOTION_DEGREES], stiffness[MOTION_DEGREES], damping[MOTION_DEGREES];
+    const struct build_drive *drive; /* a load of a plug-in; NULL: none */
+    build_motion axes, load;         /* load: harmonics or a table, by degrees of the ship */
+    /* By degree of the ship, of the body without liquid: mass or inertia about the centre,
+     * stiffness with the part of its weight, damping, dry friction. */
+    double mass[MOTION_DEGREES], stiffness[MOTION_DEGREES], damping[MOTION_DEGREES],
+        friction[MOTION_DEGREES];
 } build_body;
 
 /* Mass, centre of mass and inertia about the centre of the liquid as if it were solid. */
@@ -18,7 +21,8 @@ typedef struct frozen {
 } frozen;
 
 bool mps__body_frozen(const build *b, frozen *f);
-/* Natural period of a degree [s], without liquid (NULL) or with solid liquid; nan: nothing restores. */
+/* Natural period of a degree [s], without liquid (NULL) or with solid liquid; nan: nothing
+ * restores. */
 double mps__body_period(const build *b, int32_t degree, const frozen *liquid);
 
 #endif

@@ -8,12 +8,57 @@
 
 enum { TIMES_MOST = 24 };
 
+/* A part has failed, and the case with it. What does not need it is read too, so that its
+ * errors are reported in the same round. The first period may not be known now: it is 1 s, which no
+ * message has.
+ * @param done  parts that were built, the last of which failed */
+static void report_others(build *b, size_t done)
+{
+    static void (*const other[])(build *) = {mps__build_motion, mps__build_body, mps__build_time,
+                                             mps__build_sensors, mps__build_references};
+    static const size_t before[] = {6, 7, 8, 2, 0}; /* parts of the list below that are done then */
+    const read_scale scale = {b->dp, b->modes.count > 0 ? b->modes.period[0] : 1, NAN};
+    for (size_t k = 0; k < sizeof other / sizeof *other && b->status == MPS_OK; k++) {
+        const bool sensors = other[k] == mps__build_sensors;
+        if (sensors ? done <= before[k] : before[k] && done >= before[k]) continue;
+        mps__case_go_on(b->c, true);
+        mps__case_scale_set(b->c, scale);
+        other[k](b);
+    }
+    mps__case_go_on(b->c, false);
+}
+
+/* A motion of kilometres in a tank of metres is most often one with a wrong unit; a tank that
+ * travels begins with its liquid. */
+static void warn_amplitudes(build *b)
+{
+    const form *t = &b->tank.form;
+    const build_motion *m = b->motion;
+    const tree_node *map = mps__tree_find(b->root, "motion");
+    const double size = fmax(t->hi[0] - t->lo[0], fmax(t->hi[1] - t->lo[1], t->hi[2] - t->lo[2]));
+    for (int32_t d = 0; m && map && d < MOTION_DEGREES; d++) {
+        const tree_node *at = mps__tree_find(map, mps__degrees[d]);
+        const bool turn = d >= MPS_SHIP_ROLL;
+        const double most = m->largest[d][0], limit = turn ? acos(-1.0) : 10 * size;
+        if (!m->used[d] || !(most > limit) || m->start == MPS_START_WITH_TANK) continue;
+        if (!at) at = mps__tree_find(map, "file");
+        if (turn)
+            mps__case_say(b->c, at ? at : map, true, "motion: %s of %.3g deg; is its unit right?",
+                          mps__degrees[d], most * 180 / acos(-1.0));
+        else
+            mps__case_say(b->c, at ? at : map, true,
+                          "motion: %s of %.6g m, %.2g times the size of the tank, %.3g m; is its "
+                          "unit right?",
+                          mps__degrees[d], most, most / size, size);
+    }
+}
+
 /* All before the job: its end may be in units of T1, which the liquid as filled tells. */
 void mps__build_simulation(build *b, const mps_job_config *options)
 {
     static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
                                             mps__build_fills, mps__build_modes,  mps__build_motion,
-                                            mps__build_body,  mps__build_time};
+                                            mps__build_body,  mps__build_time,   mps__motion_start};
     b->root = mps__case_root(b->c);
     b->dim = (int32_t)mps__read_number(b->c, b->root, "dim", 2);
     mps__case_scale_set(b->c, (read_scale){NAN, NAN, NAN});
@@ -21,10 +66,19 @@ void mps__build_simulation(build *b, const mps_job_config *options)
     mps__case_scale_set(b->c, (read_scale){b->dp, NAN, NAN});
     b->gravity = mps__read_number(b->c, b->root, "gravity", 9.81);
     b->level = b->depth = NAN;
+    const tree_node *plugins = mps__tree_find(b->root, "plugins");
+    mps__read_all(plugins);
+    if (mps__plugins_missing(b->c, b->root))
+        mps__case_say(
+            b->c, plugins, false,
+            "plugins: they were not loaded when the case was read; mps_case_open() has an "
+            "option for it");
     if (!mps__case_failed(b->c)) mps__build_fluids_read(b);
     if (!mps__case_failed(b->c)) mps__build_open(b, options);
-    for (size_t i = 0; i < sizeof part / sizeof *part; i++)
-        if (b->sim && b->status == MPS_OK && !mps__case_failed(b->c)) part[i](b);
+    size_t i = 0, count = sizeof part / sizeof *part;
+    for (; i < count && b->sim && b->status == MPS_OK && !mps__case_failed(b->c); i++) part[i](b);
+    if (b->sim && b->status == MPS_OK && mps__case_failed(b->c)) report_others(b, i);
+    if (!mps__case_failed(b->c)) warn_amplitudes(b);
 }
 
 /* What a form looks like in the plane x, y, where that is one line. */
@@ -50,21 +104,16 @@ static int32_t outline_of(const form *t, double (*xy)[2])
     return count;
 }
 
-/* What is left of a plate between its slots, from one end to the other. */
+/* What is left of a plate between its slots, from one end to the other, as built. */
 static void add_plate_outline(build *b, const build_solid *s)
 {
-    const double length = s->slots > 0 ? s->slots * s->pitch : 1;
-    double begin = 0;
+    double part[2], xy[2][2];
     for (int32_t i = 0; i <= s->slots; i++) {
-        const double end = i < s->slots ? (i + 0.5) * s->pitch - 0.5 * s->gap : length;
-        double xy[2][2];
-        for (int d = 0; d < 2; d++) {
-            const double side = (s->end[1][d] - s->end[0][d]) / length;
-            xy[0][d] = s->end[0][d] + begin * side;
-            xy[1][d] = i < s->slots ? s->end[0][d] + end * side : s->end[1][d];
-        }
+        mps__solid_piece(s, i, part);
+        for (int end = 0; end < 2; end++)
+            for (int d = 0; d < 2; d++)
+                xy[end][d] = s->end[0][d] + part[end] * (s->end[1][d] - s->end[0][d]);
         mps__build_try_job(b, mps_job_outline_add(b->job, 2, &xy[0][0]), b->root, s->name);
-        begin = end + s->gap;
     }
 }
 
@@ -90,14 +139,19 @@ static void build_columns(build *b)
     static const char *const others[] = {"mps",   "title",   "base",  "set",
                                          "sweep", "collect", "output"};
     char path[PATH_ROOM];
+    mps__motion_columns(b);
     mps__body_columns(b);
     mps__build_sensors(b);
+    if (mps__case_failed(b->c)) mps__case_go_on(b->c, true);
     mps__build_references(b);
+    mps__case_go_on(b->c, false);
     mps__build_inputs(b);
     if (b->job && mps__build_filled(b))
         mps__build_try_job(b, mps_job_level_set(b->job, b->level), b->root, "fill");
     if (b->job) add_outlines(b);
     mps__build_edges(b);
+    for (int32_t k = 0; b->job && k < b->c->plugins; k++)
+        mps__build_try_job(b, mps_job_plugin_add(b->job, b->c->plugin[k].file), b->root, "plugins");
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
         mps__read_all(mps__tree_find(b->root, others[i]));
     const tree_node *unread = mps__case_failed(b->c) ? NULL : mps__case_unread(b->c);
@@ -136,6 +190,22 @@ static void model_of(const build *b, char *text, size_t size)
     }
 }
 
+/* Frames that show a period, within what the page has space for: a particle takes about so many
+ * bytes of a frame there. */
+static int32_t default_frames(const build *b, double page)
+{
+    static const double A_PERIOD = 20, LEAST = 50, MOST = 2000, BYTES[4] = {0, 0, 3.6, 5},
+                        SHARE = 0.7;
+    const double omega = mps__build_omega(b),
+                 count = (double)mps_particles_count(b->sim, MPS_FLUID);
+    const double period = isfinite(omega)      ? 2 * acos(-1.0) / omega
+                          : b->modes.count > 0 ? b->modes.period[0]
+                                               : INFINITY;
+    const double space = SHARE * page / (BYTES[b->dim] * fmax(count, 1));
+    const double wanted = ceil(A_PERIOD * b->until / period - 1e-6);
+    return (int32_t)fmax(fmin(fmin(wanted, space), MOST), LEAST);
+}
+
 /* What the program says, and what the case says. */
 static void read_config(build *b, mps_job_config *out, double *times)
 {
@@ -150,8 +220,10 @@ static void read_config(build *b, mps_job_config *out, double *times)
     const double rate = mps__read_number(b->c, output, "rate", 0);
     if (rate > 0) config.row_interval = 1 / rate;
     config.checkpoint = mps__read_number(b->c, run, "checkpoint", config.checkpoint);
+    config.checkpoint_clock = mps__read_number(b->c, run, "checkpoint_clock",
+                                               config.checkpoint_clock);
     config.average = mps__read_number(b->c, run, "average", config.average);
-    config.frames = (int32_t)mps__read_number(b->c, output, "frames", config.frames);
+    config.peaks = (int32_t)mps__read_number(b->c, output, "peaks", config.peaks);
     config.picture_count = mps__read_numbers(b->c, output, "pictures", TIMES_MOST, times);
     config.picture_t = times;
     config.tank_frame = mps__read_choice(b->c, output, "frame", 0) == 1;
@@ -160,7 +232,12 @@ static void read_config(build *b, mps_job_config *out, double *times)
     config.film = config.film || mps__read_flag(b->c, output, "film", false);
     config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
-    config.page_bytes = (int64_t)mps__read_number(b->c, output, "page", (double)config.page_bytes);
+    const double page = mps__read_number(b->c, output, "page", (double)config.page_bytes);
+    const double space = page > 0 ? page
+                                  : (double)config.page_bytes; /* without a page as with one */
+    b->frames = (int32_t)mps__read_number(b->c, output, "frames", default_frames(b, space));
+    config.frames = b->frames;
+    config.page_bytes = (int64_t)page;
     if (config.page_bytes == 0) config.report = 0;
     *out = config;
 }
@@ -198,6 +275,8 @@ mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **jo
     if (job) *job = NULL;
     if (sim) *sim = NULL;
     if (!c || !options || !job || !sim || mps__case_failed(c)) return MPS_E_ARG;
+    const mps_status resumed = mps__build_resumed(c, options);
+    if (resumed != MPS_OK) return resumed;
     build *b = begin(c);
     if (!b) return MPS_E_NOMEM;
     mps__build_simulation(b, options);
@@ -220,11 +299,19 @@ mps_status mps_case_job(mps_case *c, const mps_job_config *options, mps_job **jo
     return status;
 }
 
+mps_status mps_case_cost_get(const mps_case *c, mps_case_cost *cost)
+{
+    if (!c || !cost || cost->struct_size != sizeof *cost) return MPS_E_ARG;
+    if (c->cost.struct_size == 0) return MPS_E_STATE;
+    *cost = c->cost;
+    return MPS_OK;
+}
+
 mps_status mps_case_check(mps_case *c, char **text, char **sketch)
 {
     if (text) *text = NULL;
     if (sketch) *sketch = NULL;
-    if (!c || !text || !sketch || mps__case_failed(c)) return MPS_E_ARG;
+    if (!c || mps__case_failed(c)) return MPS_E_ARG;
     build *b = begin(c);
     if (!b) return MPS_E_NOMEM;
     mps__build_simulation(b, NULL);
@@ -236,13 +323,17 @@ mps_status mps_case_check(mps_case *c, char **text, char **sketch)
         build_columns(b);
     }
     mps_status status = b->status < 0 ? b->status : mps__case_failed(c) ? MPS_E_ARG : MPS_OK;
-    if (status == MPS_OK) *sketch = mps__sketch_write(b);
-    if (status == MPS_OK) *text = mps__check_write(b);
-    if (c->no_memory || b->status == MPS_E_NOMEM || (status == MPS_OK && (!*sketch || !*text))) {
-        free(*sketch);
-        free(*text);
-        *sketch = *text = NULL;
+    if (status == MPS_OK && sketch && !(*sketch = mps__sketch_write(b))) status = MPS_E_NOMEM;
+    if (status == MPS_OK && text && !(*text = mps__check_write(b))) status = MPS_E_NOMEM;
+    if (c->no_memory || b->status == MPS_E_NOMEM)
         status = MPS_E_NOMEM;
+    else if (status == MPS_OK && mps__case_failed(c)) /* by its first steps */
+        status = MPS_E_ARG;
+    if (status != MPS_OK) {
+        if (sketch) free(*sketch);
+        if (text) free(*text);
+        if (sketch) *sketch = NULL;
+        if (text) *text = NULL;
     }
     mps_sim_destroy(b->sim);
     free(b);

@@ -15,6 +15,7 @@ enum {
     BUILD_FLUIDS = 16,
     BUILD_SENSORS = 256,
     BUILD_SOLIDS = 64,
+    BUILD_PIECES = 64,
     BUILD_MODES = 6,
     BUILD_NOTES = 40,
     BUILD_TEXT = 240,
@@ -38,14 +39,18 @@ typedef struct build_tank {
     const tree_node *at;
 } build_tank;
 
-/* A solid in the tank, for the sketch: corners of a plate or box, outline of a prism, or a shape. */
+/* A solid in the tank, for the sketch: corners of a plate or box as built, outline of a prism, or a shape. */
 typedef struct build_solid {
     char name[BUILD_NAME];
     form form;
-    bool plate, file;
-    double end[2][3];
-    int32_t slots;     /* of a plate */
-    double pitch, gap; /* of them, along its first side [m] */
+    bool plate, file, box;
+    double asked[2][3];            /* corners of a box, ends of the first side of a plate */
+    double end[2][3];              /* of the first side of a plate, as built */
+    const char *why;               /* the reason why what is built differs; NULL: it does not */
+    int32_t slots;                 /* of a plate */
+    double pitch, gap;             /* of them, along its first side, as asked [m] */
+    int32_t pieces;                /* that are known */
+    double piece[BUILD_PIECES][2]; /* parts between slots as built: shares of the first side */
 } build_solid;
 
 typedef enum sensor_kind {
@@ -116,6 +121,9 @@ typedef struct build {
     double level; /* still level as filled [m]; NAN: none was asked for */
     double depth; /* asked for [m]; NAN */
     double until;
+    int32_t frames;                    /* besides the first */
+    double scale;                      /* run.velocity_scale [m/s]; 0: that of the library */
+    mps_time_control time;             /* with run.step_factor */
     const struct build_motion *motion; /* NULL: none; of a body its centre, axes and free degrees */
     const struct build_body *body;     /* NULL: none */
 } build;
@@ -129,6 +137,9 @@ void *mps__build_alloc(build *b, size_t size);
 
 /* All but the columns. The case has messages where something was refused, or status is negative; the simulation is the caller's. */
 void mps__build_simulation(build *b, const mps_job_config *options);
+
+/* Whether a run that goes on has the case that it began with, but for what may change. @return MPS_E_STATE, MPS_E_ARG: text in options->error */
+mps_status mps__build_resumed(const mps_case *c, const mps_job_config *options);
 
 /* In the order of calls. Each returns at once where there are errors. */
 void mps__build_fluids_read(build *b);
@@ -146,12 +157,19 @@ const char *mps__modes_without(const build *b);
 void mps__build_blocks(build *b);
 void mps__build_motion(build *b);
 void mps__build_body(build *b);
-/* Columns of what the body does. */
+/* Columns of the motion, prescribed or of the body, and of what moves the body. */
+void mps__motion_columns(build *b);
 void mps__body_columns(build *b);
 void mps__build_time(build *b);
+/* Warn of a motion that begins with a jump or a tilt; when steps are known. */
+void mps__motion_start(build *b);
 void mps__build_sensors(build *b);
+/* Level of the liquid at rest [m]: as filled to a depth, or its highest particle. */
+double mps__still_level(build *b);
 void mps__build_references(build *b);
 void mps__build_inputs(build *b);
+/* Frequency of the motion [rad/s]; NAN: it has no period. */
+double mps__build_omega(const build *b);
 
 bool mps__build_filled(const build *b);
 /* What was understood, and a drawing of tank and sensors as SVG; to be freed, NULL: no memory. The check does a few steps. */
@@ -161,12 +179,16 @@ char *mps__sketch_write(build *b);
 /* Points of a list, or one point; z is `z` where two numbers are given. @return how many */
 int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t most,
                           double (*out)[3]);
+/* The outline of a form: a polygon whose sides neither cross nor touch. Errors are at the line of the side. */
+void mps__build_polygon(build *b, const tree_node *node, form *s);
 /* A fluid by its name; -1 after a message. */
 int32_t mps__build_phase(build *b, const tree_node *at, const char *name);
 /* How to turn a file with this axis up; angles for mps_stl.rotation. */
 bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl);
 /* Edges of a tank in 3-D, to the job. */
 void mps__build_edges(build *b);
+/* Part i of a plate, between two slots, as shares of its first side: as built, where that is known. */
+void mps__solid_piece(const build_solid *s, int32_t i, double part[2]);
 /* Which of these keys a map has. The reader has seen to it that it is one and only one. */
 int mps__build_kind(const tree_node *map, const char *const *kind, int count);
 /* Middle of the tank's box along z; 0 in 2-D. */

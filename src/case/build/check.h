@@ -19,5 +19,8 @@ void mps__check_heading(const writer *w, const char *name);
 void mps__check_place(const writer *w, const build *b, const double *x);
 /* Mass, and periods of each free degree alone, the others held. */
 void mps__check_write_body(const writer *w, const build *b);
+/* What is prescribed: extremes, filter, start. */
+void mps__check_write_motion(const writer *w, build *b);
+void mps__check_write_start(const writer *w, build *b);
 
 #endif

@@ -45,6 +45,16 @@ static void write_coupled(const writer *w, const build *b, int32_t degree)
     write_period(w, " and", period[1], b);
 }
 
+static void write_table(const writer *w, const build_motion *load)
+{
+    if (load->rows == 0) return;
+    mps__check_heading(w, "");
+    fprintf(w->file, "loads of %lld rows of %s; t = 0 is %.6g s of the file", (long long)load->rows,
+            load->file, load->from);
+    if (load->ramp > 0) fprintf(w->file, "; they grow over %.4g s ('ramp')", load->ramp);
+    fprintf(w->file, "\n");
+}
+
 void mps__check_write_body(const writer *w, const build *b)
 {
     const build_body *body = b->body;
@@ -59,14 +69,19 @@ void mps__check_write_body(const writer *w, const build *b)
     fprintf(w->file, "; liquid %.4g kg%s at ", liquid.mass, width);
     mps__check_place(w, b, liquid.place);
     fprintf(w->file, "\n");
+    write_table(w, &body->load);
     for (int32_t d = 0; d < MOTION_DEGREES; d++) {
         if (!body->axes.used[d]) continue;
         const bool turn = d >= MPS_SHIP_ROLL;
         mps__check_heading(w, "");
-        fprintf(w->file, "%s: %s %.4g %s%s, restoring %.4g %s%s, damping %.4g %s%s\n",
+        fprintf(w->file, "%s: %s %.4g %s%s, restoring %.4g %s%s, damping %.4g %s%s",
                 mps__degrees[d], turn ? "inertia about the centre" : "mass", body->mass[d],
                 turn ? "kg m2" : "kg", width, body->stiffness[d], turn ? "N m/rad" : "N/m", width,
                 body->damping[d], turn ? "N m s/rad" : "N s/m", width);
+        if (body->friction[d] > 0)
+            fprintf(w->file, ", dry friction %.4g %s%s", body->friction[d], turn ? "N m" : "N",
+                    width);
+        fprintf(w->file, "\n");
         mps__check_heading(w, "");
         write_period(w, "    natural period without liquid", mps__body_period(b, d, NULL), b);
         write_period(w, "; with the liquid frozen", mps__body_period(b, d, &liquid), b);

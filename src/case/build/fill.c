@@ -96,13 +96,13 @@ static void fill_depth(filling *f)
     build *b = f->b;
     const form *t = &b->tank.form;
     b->depth = mps__read_number(b->c, f->map, "depth", NAN);
-    const double level = t->lo[1] + b->depth;
+    const double height = t->hi[1] - t->lo[1], level = fmin(t->lo[1] + b->depth, t->hi[1]);
     const bool whole = in_whole_rows(f);
     if (mps__case_failed(b->c)) return;
-    if (level > t->hi[1] * (1 + 1e-12)) {
+    if (b->depth > height + 1e-6 * b->dp) { /* a length, so that it does not matter where it is */
         char text[BUILD_TEXT];
-        snprintf(text, sizeof text, "%g m is more than the tank is high, %g m", b->depth,
-                 t->hi[1] - t->lo[1]);
+        snprintf(text, sizeof text, "%.9g m is more than the tank is high, %.9g m", b->depth,
+                 height);
         say(f, "depth", text);
         return;
     }
@@ -162,10 +162,8 @@ static void fill_sphere(filling *f)
 static void fill_polygon(filling *f)
 {
     build *b = f->b;
-    double x[FORM_POINTS][3];
     form s = {.kind = FORM_POLYGON, .dim = 2};
-    s.points = mps__build_points(b, mps__tree_find(f->map, "polygon"), 0, FORM_POINTS, x);
-    for (int32_t i = 0; i < s.points; i++) memcpy(s.point[i], x[i], sizeof s.point[i]);
+    mps__build_polygon(b, mps__tree_find(f->map, "polygon"), &s);
     s.radius = b->dp;
     if (!mps__case_failed(b->c)) done(f, mps_fill_add(b->sim, f->phase, in_shape, &s, NULL));
 }
@@ -305,6 +303,38 @@ static void fill_one(build *b, const tree_node *at)
     if (moving && !mps__case_failed(b->c)) start_moving(&f, first);
 }
 
+/* Particles beyond the corners of `domain` are removed in the first step. */
+static void check_domain(build *b)
+{
+    double x[2][3], least[3], most[3], place[3] = {0, 0, 0};
+    const tree_node *node = mps__tree_find(b->root, "domain");
+    mps_lease at = {.struct_size = sizeof at}, kind = at;
+    int64_t fluid = 0, beyond = 0;
+    if (!node || mps__build_points(b, node, 0, 2, x) != 2) return;
+    for (int d = 0; d < 3; d++) {
+        least[d] = fmin(x[0][d], x[1][d]);
+        most[d] = fmax(x[0][d], x[1][d]);
+    }
+    bool good = mps__build_try(b, mps_lease_begin(b->sim, "position", MPS_READ, &at), node, "fill");
+    good = good &&
+           mps__build_try(b, mps_lease_begin(b->sim, "kind", MPS_READ, &kind), node, "fill");
+    for (int64_t i = 0; good && i < at.count; i++) {
+        const double *X = at.data + i * at.stride;
+        bool out = false;
+        if (kind.integers[i] != MPS_FLUID) continue;
+        fluid++;
+        for (int d = 0; d < b->dim; d++) out = out || X[d] < least[d] || X[d] > most[d];
+        if (out && beyond++ == 0) memcpy(place, X, (size_t)b->dim * sizeof *X);
+    }
+    mps_lease_end(b->sim, &kind);
+    mps_lease_end(b->sim, &at);
+    if (beyond == 0) return;
+    mps__case_say(b->c, node, beyond < fluid,
+                  "domain: %lld of %lld particles of the fill are outside of it, e.g. at (%g, %g, "
+                  "%g) m, and are lost in the first step; enlarge the domain, or leave it out",
+                  (long long)beyond, (long long)fluid, place[0], place[1], place[2]);
+}
+
 void mps__build_fills(build *b)
 {
     const tree_node *fill = mps__tree_find(b->root, "fill");
@@ -317,4 +347,5 @@ void mps__build_fills(build *b)
     for (const tree_node *item = fill->first; item && !mps__case_failed(b->c); item = item->next)
         if (item->first->kind == TREE_MAP) start_drop(b, item->first);
     mps__case_scale_set(b->c, (read_scale){b->dp, NAN, NAN});
+    if (!mps__case_failed(b->c)) check_domain(b);
 }

@@ -7,7 +7,10 @@
 #include <string.h>
 #include <strings.h>
 
-static const build_fluid KNOWN[] = {{"water", 1000, 1e-3, NAN, NULL},
+/* [Pa s] of water, and of a fluid that has none of its own */
+#define WATER_VISCOSITY 1e-3
+
+static const build_fluid KNOWN[] = {{"water", 1000, WATER_VISCOSITY, NAN, NULL},
                                     {"air", 1.29, 1.5e-5, NAN, NULL}};
 
 static const build_fluid *find_known(const char *name)
@@ -48,7 +51,8 @@ static void read_fluid(build *b, const tree_node *at, build_fluid *f)
 {
     const tree_node *own = mps__tree_find(mps__tree_find(b->root, "fluids"), at->key);
     const build_fluid *known = find_known(at->key);
-    *f = known ? *known : (build_fluid){.density = NAN, .viscosity = NAN, .tension = NAN};
+    *f = known ? *known
+               : (build_fluid){.density = NAN, .viscosity = WATER_VISCOSITY, .tension = NAN};
     f->at = at;
     snprintf(f->name, sizeof f->name, "%s", at->key);
     if (!own && !known) {
@@ -61,8 +65,9 @@ static void read_fluid(build *b, const tree_node *at, build_fluid *f)
     f->tension = mps__read_number(b->c, own, "tension", f->tension);
     if (mps__read_is(b->c, own, "viscosity", UNIT_KINEMATIC))
         f->viscosity = f->density * f->viscosity;
-    if (isnan(f->density) || isnan(f->viscosity))
-        mps__case_say(b->c, own, false, "fluids.%s: density and viscosity are needed", at->key);
+    if (isnan(f->density))
+        mps__case_say(b->c, own, false,
+                      "fluids.%s: 'density' is missing, e.g. 'density: 450 kg/m3'", at->key);
 }
 
 static int by_density(const void *a, const void *b)

@@ -152,6 +152,60 @@ double mps__form_polygon_area(const form *s)
     return 0.5 * twice;
 }
 
+void mps__form_polygon_clean(form *s)
+{
+    int32_t kept = 0;
+    for (int32_t i = 0; i < s->points; i++) {
+        const double *last = kept ? s->point[kept - 1] : s->point[s->points - 1];
+        if (s->points > 1 && last[0] == s->point[i][0] && last[1] == s->point[i][1]) continue;
+        memmove(s->point[kept++], s->point[i], sizeof s->point[0]);
+    }
+    s->points = kept;
+}
+
+/* Twice the area of a triangle. */
+static double turn(const double *a, const double *b, const double *c)
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+/* Whether c is on the line from a to b. */
+static bool is_on(const double *a, const double *b, const double *c, double area)
+{
+    return fabs(area) <= 1e-12 * (pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2)) &&
+           (c[0] - a[0]) * (c[0] - b[0]) + (c[1] - a[1]) * (c[1] - b[1]) <= 0;
+}
+
+/* Sides with a point in common meet elsewhere too if one lies on the other. */
+static bool sides_meet(const form *s, int32_t i, int32_t j, double *at)
+{
+    const double *a = s->point[i], *b = s->point[(i + 1) % s->points], *c = s->point[j],
+                 *d = s->point[(j + 1) % s->points];
+    const double ca = turn(c, d, a), cb = turn(c, d, b), ac = turn(a, b, c), ad = turn(a, b, d);
+    const double *touch = NULL;
+    if (b != c && is_on(c, d, b, cb)) touch = b;
+    if (b != c && is_on(a, b, c, ac)) touch = c;
+    if (d != a && is_on(c, d, a, ca)) touch = a;
+    if (d != a && is_on(a, b, d, ad)) touch = d;
+    if (touch) memcpy(at, touch, 2 * sizeof *at);
+    if (touch || b == c || d == a) return touch != NULL;
+    if (!(ca * cb < 0 && ac * ad < 0)) return false;
+    for (int k = 0; k < 2; k++) at[k] = a[k] + ca / (ca - cb) * (b[k] - a[k]);
+    return true;
+}
+
+bool mps__form_polygon_crosses(const form *s, int32_t *side, double *at)
+{
+    for (int32_t i = 0; i < s->points; i++)
+        for (int32_t j = i + 1; j < s->points; j++)
+            if (sides_meet(s, i, j, at)) {
+                side[0] = i;
+                side[1] = j;
+                return true;
+            }
+    return false;
+}
+
 double mps__form_volume(const form *s)
 {
     const double pi = acos(-1.0), r = s->radius, disc = pi * r * r;

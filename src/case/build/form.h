@@ -34,6 +34,11 @@ double mps__form_body(void *user, const double *x);
 void mps__form_box(form *s);
 /* Area of a polygon, > 0 where its points are counterclockwise [m2]. */
 double mps__form_polygon_area(const form *s);
+/* Leave out points of a polygon that are the same as the one before, also behind the last. */
+void mps__form_polygon_clean(form *s);
+/* Whether two sides of a polygon cross, touch or lie on each other. Side i is from point i to point i + 1.
+ * @param side  [2] out: the first two @param at  [2] out: where they do */
+bool mps__form_polygon_crosses(const form *s, int32_t *side, double *at);
 /* Volume of the shape of a tank [m3], in 2-D area [m2]; no tank is a rod. */
 double mps__form_volume(const form *s);
 /* The part of it below a level y; of boxes and polygons, NAN of others. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Motion of the tank: degrees of a ship as harmonics of the lab. */
-#include "ship_motion.h"
+#include "drive.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -173,14 +173,19 @@ void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int
 }
 
 /* The rotations of the library are yaw, pitch, roll of a ship with its bow along x; a single rotation has no order. */
-static bool is_sum_of_harmonics(const build_motion *m)
+bool mps__motion_parallel(const build_motion *m)
 {
     int rotations = 0;
-    for (int32_t i = 0; i < m->count; i++)
-        if (m->harmonic[i].form == MOTION_PUSH) return false;
     for (int32_t d = MPS_SHIP_ROLL; d <= MPS_SHIP_YAW; d++) rotations += m->used[d];
     const bool usual = m->ship.order[0] == MPS_SHIP_YAW && m->ship.order[1] == MPS_SHIP_PITCH;
     return m->dim == 2 || rotations < 2 || (usual && fabs(m->ship.forward[0]) > 0.5);
+}
+
+static bool is_sum_of_harmonics(const build_motion *m)
+{
+    for (int32_t i = 0; i < m->count; i++)
+        if (m->harmonic[i].form == MOTION_PUSH) return false;
+    return mps__motion_parallel(m);
 }
 
 /* Of the ship at t, for mps_motion_callback_set(). */
@@ -265,37 +270,31 @@ static void set_table(build *b, build_motion *m, const tree_node *map)
                    "motion.file");
 }
 
-/* ---- what it amounts to ---- */
+static const double STEPS_A_PERIOD = 20;
 
-static void measure_harmonics(build_motion *m, double until)
+static void set_drive(build *b, build_motion *m, const tree_node *map, const build_drive *d)
 {
-    const double step = fmin(mps__shortest_period(m) / 40, until / 1000);
-    const int64_t count = step > 0 && until / step < 1e6 ? (int64_t)(until / step) : 1000000;
-    for (int64_t i = 0; i <= count; i++)
-        for (int32_t d = 0; d < MOTION_DEGREES; d++) {
-            double q[3];
-            if (!m->used[d]) continue;
-            mps__harmonics_at(m, d, until * (double)i / (double)count, q);
-            for (int k = 0; k < 3; k++) m->largest[d][k] = fmax(m->largest[d][k], fabs(q[k]));
-        }
+    m->dt_max = fmin(mps__drive_period(d), b->until) / STEPS_A_PERIOD;
+    m->plugin = mps__read_text(b->c, map, "plugin", NULL);
+    mps__build_try(b, mps_motion_callback_set(b->sim, mps__drive_motion, (void *)d), map,
+                   "motion.plugin");
 }
 
-/* By differences of neighbouring rows. */
-static void measure_table(build_motion *m, double until)
+/* Degrees of the lab that a plug-in moves, as those of the ship that are parallel to them. */
+static void find_driven(build_motion *m, const build_drive *d, double until)
 {
-    m->step_least = INFINITY;
-    for (int64_t i = 1; i < m->rows; i++) {
-        const double h = m->t[i] - m->t[i - 1];
-        m->step_least = fmin(m->step_least, h);
-        m->step_most = fmax(m->step_most, h);
-        if (m->t[i] < 0 || m->t[i - 1] > until) continue;
-        for (int32_t d = 0; d < MOTION_DEGREES; d++) {
-            const double *q = m->column + 6 * i + d, rate = (q[0] - q[-6]) / h;
-            m->largest[d][0] = fmax(m->largest[d][0], fabs(q[0]));
-            m->largest[d][1] = fmax(m->largest[d][1], fabs(rate));
-            if (i + 1 == m->rows) continue;
-            const double next = m->t[i + 1] - m->t[i], after = (q[6] - q[0]) / next;
-            m->largest[d][2] = fmax(m->largest[d][2], fabs(2 * (after - rate) / (h + next)));
+    enum { SAMPLES = 2000 };
+    for (int i = 0; i <= SAMPLES; i++) {
+        mps_motion_state state;
+        mps_motion_state_init(&state, sizeof state);
+        if (mps__drive_motion((void *)d, until * i / SAMPLES, &state) != 0) return;
+        for (int32_t k = 0; k < MOTION_DEGREES; k++) {
+            double sign;
+            int32_t dof;
+            mps__degree_to_lab(m, k, &dof, &sign);
+            if (m->dim == 2 && k != MPS_SHIP_SURGE && k != MPS_SHIP_HEAVE && k != MPS_SHIP_ROLL)
+                continue;
+            m->used[k] = m->used[k] || state.value[dof] != 0 || state.rate[dof] != 0;
         }
     }
 }
@@ -313,23 +312,31 @@ void mps__build_motion(build *b)
     mps__ship_read(b, m, map);
     for (int32_t d = 0; d < MOTION_DEGREES && !mps__case_failed(b->c); d++)
         read_degree(b, m, map, d);
+    const build_drive *drive = mps__drive_read(b, map, MPS_PLUGIN_MOTION);
+    if (drive && m->count > 0)
+        mps__case_say(b->c, mps__tree_find(map, "plugin"), false,
+                      "motion: give a plug-in or degrees, not both");
     if (file && m->count > 0)
         mps__case_say(b->c, mps__tree_find(map, "file"), false,
                       "motion: give a file or degrees, not both");
-    if (!file && m->count == 0 && !mps__case_failed(b->c))
+    if (!file && !drive && m->count == 0 && !mps__case_failed(b->c))
         mps__case_say(b->c, map, false,
-                      "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file");
+                      "motion: no degree is given: surge, sway, heave, roll, pitch, yaw, or file, "
+                      "or plugin");
     if (mps__case_failed(b->c) || (file && !mps__motion_file(b, m, map))) return;
-    const int32_t start = mps__read_choice(b->c, map, "start", MPS_START_AT_REST);
-    if (!mps__build_try(b, mps_motion_centre_set(b->sim, m->centre, start), map, "motion.centre"))
+    m->start = mps__read_choice(b->c, map, "start", MPS_START_AT_REST);
+    if (!mps__build_try(b, mps_motion_centre_set(b->sim, m->centre, m->start), map,
+                        "motion.centre"))
         return;
     if (file)
         set_table(b, m, map);
+    else if (drive)
+        set_drive(b, m, map, drive);
     else
         set_harmonics(b, m, map);
-    if (file)
-        measure_table(m, b->until);
-    else
-        measure_harmonics(m, b->until);
+    if (mps__case_failed(b->c) || b->status < 0) return;
+    if (drive) find_driven(m, drive, b->until);
+    mps__motion_measure(b, m, map);
+    if (file) mps__motion_diagnose(b, m, map);
     b->motion = m;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The empty simulation with its models, settings, solver and time steps. */
-#include "ship_motion.h"
+#include "drive.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -105,6 +105,7 @@ static void set_one(build *b, const tree_node *at)
 {
     char slot[96];
     const char *dot = strrchr(at->key, '.');
+    if (mps__drive_has(b, at->key)) return; /* who uses the load or motion reads it */
     const double value = mps__read_setting(b->c, at, NAN);
     if (!dot || isnan(value)) return;
     snprintf(slot, sizeof slot, "%.*s", (int)(dot - at->key), at->key);
@@ -163,7 +164,7 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
     config.dim = b->dim;
     config.dp = b->dp;
     config.gravity[1] = -b->gravity;
-    config.velocity_scale = mps__read_number(b->c, run, "velocity_scale", 0);
+    b->scale = config.velocity_scale = mps__read_number(b->c, run, "velocity_scale", 0);
     if (b->paper && b->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
     const tree_node *kernel = mps__tree_find(b->root, "kernel");
     config.kernel = mps__read_text(b->c, kernel, "name", config.kernel);
@@ -176,7 +177,6 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
     config.lost_policy = mps__read_choice(b->c, run, "lost", MPS_LOST_REMOVE);
     const bool ranks = options && options->ranks;
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", ranks ? 1 : 2);
-    if (options && options->threads > 0) config.threads = options->threads;
     config.log = keep;
     config.log_user = b->log;
     config.error = error;
@@ -187,7 +187,7 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
         b->status = status;
     else if (status < 0)
         mps__case_say(b->c, b->root, false, "%s", error);
-    else if (ranks)
+    else if (mps__plugins_register(b->c, b->sim) && ranks)
         mps__build_try(b, options->ranks->attach(options->ranks->user, b->sim), b->root, "ranks");
 }
 
@@ -230,6 +230,7 @@ void mps__build_time(build *b)
     const double dt_max = b->motion ? b->motion->dt_max : 0;
     if (dt_max > 0) control.dt_max = control.dt_max > 0 ? fmin(control.dt_max, dt_max) : dt_max;
     scale_steps(&control, mps__read_number(b->c, run, "step_factor", 1));
+    b->time = control;
     if (!mps__case_failed(b->c))
         mps__build_try(b, mps_time_control_set(b->sim, &control), run, "run");
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Known values beside the results, figures between two times, and what summary.json says about the case. */
 #include "build.h"
-#include "csv.h"
+#include "case_csv.h"
 #include "body.h"
 #include "units.h"
 #include <math.h>
@@ -37,7 +37,7 @@ static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
 }
 
 /* Times that go back are of another column, or of several tables one after the other. @param t  NULL: they are in the case */
-static bool check_times(build *b, const tree_node *node, const csv *t, const series *s)
+static bool check_times(build *b, const tree_node *node, const mps__csv *t, const series *s)
 {
     char line[32] = "";
     for (int64_t i = 1; i < s->count; i++) {
@@ -74,7 +74,7 @@ static bool read_inline(build *b, const tree_node *map, series *s)
     return check_times(b, mps__tree_find(map, "times"), NULL, s);
 }
 
-static bool read_columns(build *b, const tree_node *map, const csv *t, int32_t *column)
+static bool read_columns(build *b, const tree_node *map, const mps__csv *t, int32_t *column)
 {
     const tree_node *node = mps__tree_find(map, "columns");
     int k = 0;
@@ -82,45 +82,41 @@ static bool read_columns(build *b, const tree_node *map, const csv *t, int32_t *
     column[0] = 0;
     column[1] = 1;
     for (const tree_node *at = node && node->kind == TREE_LIST ? node->first : NULL; at && k < 2;
-         at = at->next, k++) {
-        column[k] = mps__csv_find(t, at->text);
-        if (column[k] < 0) {
-            char names[BUILD_TEXT];
-            mps__csv_names(t, names, sizeof names);
-            mps__case_say(b->c, at, false, "'%s' is no column of %s, which has %s", at->text,
-                          t->path, names);
-        }
-    }
+         at = at->next, k++)
+        column[k] = mps__case_csv_find(b->c, at, t, at->text, true);
     if (t->columns < 2)
         mps__case_say(b->c, map, false, "%s: has one column, two are needed", t->path);
+    for (k = 0; k < t->columns; k++) t->wanted[k] = k == column[0] || k == column[1];
     return !mps__case_failed(b->c);
 }
 
 static bool read_table(build *b, const tree_node *map, series *s)
 {
-    csv t = {0};
-    int32_t column[2];
+    mps__csv t = {0};
+    int32_t column[2] = {0, 0};
     const tree_node *node = mps__tree_find(map, "file");
     const char *path = mps__read_path(b->c, map, "file"),
                *unit = mps__read_text(b->c, map, "unit", NULL);
-    bool good = path && mps__csv_read(b->c, node, path, &t) && read_columns(b, map, &t, column);
-    const double times = good ? mps__csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL) : NAN;
-    const double factor = good ? mps__csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit) : NAN;
-    if (good && !isnan(times) && !isnan(factor)) {
+    bool good = path && mps__case_csv_open(b->c, node, path, &t) &&
+                read_columns(b, map, &t, column);
+    const double times = good ? mps__case_csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL)
+                              : NAN;
+    const double factor = good ? mps__case_csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit)
+                               : NAN;
+    good = !isnan(times) && !isnan(factor) && mps__case_csv_read(b->c, node, &t);
+    if (good) {
         const char *text = unit && unit[0] ? unit : t.unit[column[1]];
-        const mps__unit *u = mps__unit_find(text, strlen(text));
-        unit_of(u->kinds, b->dim, s->unit, sizeof s->unit);
+        unit_of(mps__case_csv_unit(text)->kinds, b->dim, s->unit, sizeof s->unit);
         const double degrees = strcmp(s->unit, "deg") == 0 ? 180 / acos(-1.0) : 1;
         s->t = mps__build_alloc(b, (size_t)t.rows * sizeof *s->t);
         s->value = mps__build_alloc(b, (size_t)t.rows * sizeof *s->value);
         for (int64_t i = 0; s->t && s->value && i < t.rows; i++) {
-            s->t[i] = t.value[i * t.columns + column[0]] * times;
-            s->value[i] = t.value[i * t.columns + column[1]] * factor * degrees;
+            s->t[i] = t.value[column[0]][i] * times;
+            s->value[i] = t.value[column[1]][i] * factor * degrees;
         }
         s->count = s->t && s->value ? t.rows : 0;
         good = s->count > 0 && check_times(b, node, &t, s);
-    } else
-        good = false;
+    }
     mps__csv_free(&t);
     return good;
 }
@@ -143,7 +139,7 @@ static void add_reference(build *b, const tree_node *map, const char *name)
     r.value = s.value;
     if (!column[0] && mps__tree_find(mps__tree_find(b->root, "sensors"), name)) column = name;
     r.column = column[0] ? column : NULL;
-    if (mps__case_failed(b->c) || !b->job) return;
+    if (mps__case_failed(b->c) || !b->job || b->c->known_errors) return;
     mps__build_try_job(b, mps_job_reference_add(b->job, &r), map, name);
 }
 
@@ -162,7 +158,7 @@ static void add_figure(build *b, const tree_node *map)
     t.to = mps__read_number(b->c, map, "until", b->until);
     t.window = mps__read_number(b->c, map, "window", 0);
     t.scale = mps__read_number(b->c, map, "over", 1);
-    if (mps__case_failed(b->c) || !b->job) return;
+    if (mps__case_failed(b->c) || !b->job || b->c->known_errors) return;
     mps__build_try_job(b, mps_job_trace_add(b->job, &t), map, map->key);
 }
 
@@ -246,6 +242,11 @@ static double motion_omega(const build_motion *m)
     return isfinite(least) ? least : NAN;
 }
 
+double mps__build_omega(const build *b)
+{
+    return motion_omega(b->body ? &b->body->load : b->motion);
+}
+
 void mps__build_inputs(build *b)
 {
     char text[BUILD_TEXT];
@@ -257,7 +258,7 @@ void mps__build_inputs(build *b)
         snprintf(text, sizeof text, "%s%s", b->modes.how, mps__modes_without(b));
         add_input(b, "T1 by", text);
     }
-    const double omega = motion_omega(b->body ? &b->body->load : b->motion);
+    const double omega = mps__build_omega(b);
     if (isfinite(omega)) {
         snprintf(text, sizeof text, "%.9g rad/s", omega);
         add_input(b, "motion omega", text);

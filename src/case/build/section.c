@@ -72,19 +72,27 @@ static bool make_section(section *s, const form *f, double level)
     return true;
 }
 
-static void multiply(const section *s, const double *x, double *out)
+/* Each row with the terms of the cells before it first: in this order rounding is that of sums by
+ * faces. The loop of the cells that have all neighbours has no branch and no order between rows. */
+static double multiply_row(const section *s, const double *x, int64_t k)
 {
-    for (int64_t k = 0; k < s->n; k++) out[k] = s->sum[k] * x[k];
-    for (int64_t k = 0; k < s->n; k++) {
-        if (s->east[k] > 0) {
-            out[k] -= s->east[k] * x[k + 1];
-            out[k + 1] -= s->east[k] * x[k];
-        }
-        if (s->north[k] > 0) {
-            out[k] -= s->north[k] * x[k + s->nx];
-            out[k + s->nx] -= s->north[k] * x[k];
-        }
-    }
+    double sum = s->sum[k] * x[k];
+    if (k >= s->nx) sum -= s->north[k - s->nx] * x[k - s->nx];
+    if (k >= 1) sum -= s->east[k - 1] * x[k - 1];
+    if (k + 1 < s->n) sum -= s->east[k] * x[k + 1];
+    if (k + s->nx < s->n) sum -= s->north[k] * x[k + s->nx];
+    return sum;
+}
+
+static void multiply(const section *s, const double *restrict x, double *restrict out)
+{
+    const int64_t nx = s->nx, from = nx, to = s->n - nx;
+    const double *restrict east = s->east, *restrict north = s->north, *restrict sum = s->sum;
+    for (int64_t k = 0; k < from; k++) out[k] = multiply_row(s, x, k);
+    for (int64_t k = from; k < to; k++)
+        out[k] = sum[k] * x[k] - north[k - nx] * x[k - nx] - east[k - 1] * x[k - 1] -
+                 east[k] * x[k + 1] - north[k] * x[k + nx];
+    for (int64_t k = to; k < s->n; k++) out[k] = multiply_row(s, x, k);
 }
 
 static double dot(const section *s, const double *a, const double *b)
@@ -103,18 +111,30 @@ static double dot_surface(const section *s, const double *a, const double *b)
     return sum;
 }
 
+/* z = r over the diagonal. Sums of r r and r z wait for no sum of the other. @return r r */
+static double precondition(const section *s, const double *r, double *z, double *rz)
+{
+    double rr = 0, sum = 0;
+    for (int64_t k = 0; k < s->n; k++) {
+        z[k] = s->sum[k] > 0 ? r[k] / s->sum[k] : 0;
+        rr += r[k] * r[k];
+        sum += r[k] * z[k];
+    }
+    *rz = sum;
+    return rr;
+}
+
 /* Solve K x = b from the x that is there. @return false: not solved */
 static bool solve(const section *s, const double *b, double *x)
 {
-    double *r = s->work, *p = r + s->n, *q = p + s->n, *z = q + s->n, rz = 0;
+    double *r = s->work, *p = r + s->n, *q = p + s->n, *z = q + s->n, rz = 0, now;
     const double most = SOLVED * SOLVED * dot(s, b, b);
     multiply(s, x, q);
     for (int64_t k = 0; k < s->n; k++) r[k] = b[k] - q[k];
     memset(p, 0, (size_t)s->n * sizeof *p);
     for (int32_t step = 0; step < SOLVE_MOST; step++) {
-        if (dot(s, r, r) <= most) return true;
-        for (int64_t k = 0; k < s->n; k++) z[k] = s->sum[k] > 0 ? r[k] / s->sum[k] : 0;
-        const double now = dot(s, r, z), beta = step ? now / rz : 0;
+        if (precondition(s, r, z, &now) <= most) return true;
+        const double beta = step ? now / rz : 0;
         for (int64_t k = 0; k < s->n; k++) p[k] = z[k] + beta * p[k];
         multiply(s, p, q);
         const double alpha = now / dot(s, p, q);

@@ -128,9 +128,10 @@ static void add_fluid(const sensing *s)
     add_point(s, "pressure", MPS_PROBE_FLUID_PRESSURE);
 }
 
-/* The highest particle of the liquid. */
-static double find_level(build *b)
+/* As filled to a depth, or the highest particle of the liquid. */
+double mps__still_level(build *b)
 {
+    if (!isnan(b->level)) return b->level;
     double level = -INFINITY;
     mps_lease x = {.struct_size = sizeof x}, kind = x, phase = x;
     bool good = mps_lease_begin(b->sim, "position", MPS_READ, &x) == MPS_OK;
@@ -142,13 +143,7 @@ static double find_level(build *b)
     mps_lease_end(b->sim, &phase);
     mps_lease_end(b->sim, &kind);
     mps_lease_end(b->sim, &x);
-    return level;
-}
-
-/* Distance from the left wall, negative: from the right one. */
-static double from_wall(const build *b, int d, double value)
-{
-    return signbit(value) ? b->tank.form.hi[d] + value : b->tank.form.lo[d] + value;
+    return b->level = level;
 }
 
 /* Height of the floor below a place: where a line upwards enters the tank. Of a file it is the lower end of its box. */
@@ -161,7 +156,41 @@ static double floor_below(const build *b, const double *x)
     return at[1] < t->hi[1] ? at[1] : t->lo[1];
 }
 
-/* "x", in 3-D "x z", or a whole point: the line begins there. */
+/* The line of a gauge begins in the tank or on its wall, and not within a solid: else it never
+ * meets the liquid. */
+static void check_foot(const sensing *s, const mps_probe *probe)
+{
+    const build *b = s->b;
+    const form *t = &b->tank.form;
+    const tree_node *at = mps__tree_find(s->map, "gauge");
+    const double slack = 1e-6 * b->dp;
+    bool outside = !b->tank.file && mps__form_inside(t, probe->at) < -slack;
+    for (int32_t d = 0; d < b->dim; d++)
+        outside = outside || probe->at[d] < t->lo[d] - slack || probe->at[d] > t->hi[d] + slack;
+    const double begin[3] = {probe->at[0], probe->at[1] + 0.25 * b->dp, probe->at[2]};
+    for (int32_t i = 0; !outside && i < b->solids; i++) { /* a foot may be on the face of one */
+        const build_solid *o = &b->solid[i];
+        if (o->plate || o->file || mps__form_inside(&o->form, begin) <= slack) continue;
+        mps__case_say(b->c, at, false,
+                      "sensors.%s.gauge: the line begins within solid '%s'; give a whole point "
+                      "above it, 'x y%s'",
+                      s->map->key, o->name, b->dim == 3 ? " z" : "");
+        return;
+    }
+    char text[3][80];
+    const double *place[] = {probe->at, t->lo, t->hi};
+    for (int k = 0; k < 3; k++)
+        snprintf(text[k], sizeof text[k], b->dim == 3 ? "(%g, %g, %g)" : "(%g, %g)", place[k][0],
+                 place[k][1], place[k][2]);
+    if (outside)
+        mps__case_say(b->c, at, false,
+                      "sensors.%s.gauge: the line begins at %s m, outside of the tank, whose box "
+                      "reaches from %s to %s m",
+                      s->map->key, text[0], text[1], text[2]);
+}
+
+/* "x", in 3-D "x z", or a whole point: the line begins there. Coordinates are those of the
+ * case, as of all sensors. */
 static void add_gauge(const sensing *s)
 {
     build *b = s->b;
@@ -171,18 +200,18 @@ static void add_gauge(const sensing *s)
     const int32_t given = mps__read_numbers(b->c, s->map, "gauge", 3, x);
     const bool whole = given == 3 || (given == 2 && b->dim == 2);
     if (mps__case_failed(b->c)) return;
-    probe.at[0] = from_wall(b, 0, x[0]);
+    probe.at[0] = x[0];
     probe.at[2] = mps__build_middle(b);
-    if (b->dim == 3 && given > 1) probe.at[2] = whole ? x[2] : from_wall(b, 2, x[1]);
+    if (b->dim == 3 && given > 1) probe.at[2] = whole ? x[2] : x[1];
     probe.at[1] = whole ? x[1] : floor_below(b, probe.at);
+    check_foot(s, &probe);
     mps__read_numbers(b->c, s->map, "direction", 3, probe.direction);
     probe.length = mps__read_number(b->c, s->map, "length", probe.length);
     probe.count_drops = mps__read_flag(b->c, s->map, "drops", false);
     const char *fluid = mps__read_text(b->c, s->map, "fluid", "");
     const int32_t phase = fluid[0] ? mps__build_phase(b, s->map, fluid) : -1;
     if (phase >= 0) probe.phases = 1u << phase;
-    if (isnan(b->level)) b->level = find_level(b);
-    const double level = mps__read_number(b->c, s->map, "level", b->level);
+    const double level = mps__read_number(b->c, s->map, "level", mps__still_level(b));
     if (!mps__case_failed(b->c)) mps__sensor_add(s, &probe, 0, level - probe.at[1], s->map->key);
 }
 
@@ -250,5 +279,8 @@ void mps__build_sensors(build *b)
 {
     const tree_node *map = mps__tree_find(b->root, "sensors");
     if (b->status < 0) return;
-    for (const tree_node *at = map ? map->first : NULL; at; at = at->next) add_sensor(b, at);
+    for (const tree_node *at = map ? map->first : NULL; at; at = at->next) {
+        if (mps__case_failed(b->c)) mps__case_go_on(b->c, true); /* a sensor needs no other */
+        add_sensor(b, at);
+    }
 }

@@ -98,6 +98,7 @@ void mps__sensor_load(const sensing *s)
     double centre[3];
     int32_t probe = -1;
     const int32_t how = mps__read_choice(b->c, s->map, "load", LOAD_MOMENTUM);
+    if (!b->motion && b->c->known_errors) return; /* the motion has errors of its own */
     if (!b->motion) {
         mps__sensor_say(s, "load", "needs 'motion' or 'body', whose degrees name its columns");
         return;

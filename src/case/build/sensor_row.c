@@ -204,10 +204,11 @@ static void add_ship_loads(const sensing *s, mps_probe *probe, int32_t chosen, i
     build *b = s->b;
     char text[2 * BUILD_NAME], about[BUILD_TEXT];
     int32_t id;
-    if (b->dim == 2 || !b->motion) {
+    if (b->dim == 2 || (!mps__tree_find(b->root, "motion") && !mps__tree_find(b->root, "body"))) {
         mps__sensor_say(s, "axes", "are for 3-D and a motion");
         return;
     }
+    if (!b->motion) return; /* it has errors of its own */
     snprintf(text, sizeof text, "%s.lab", s->map->key);
     probe->name = text;
     const bool added = mps__build_try(b, mps_probe_add(b->sim, probe, &id), s->map, s->map->key);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tank, liquid and sensors as SVG: a section through the middle of the tank, in 3-D one along each horizontal axis, with the names of the
  * sensors beside it. */
+#include "page_text.h"
 #include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
@@ -121,10 +122,7 @@ static void draw_outline(const drawing *d)
                 (t->hi[1] - t->lo[1]) * d->scale);
     fprintf(d->file, "</g>\n");
 }
-
 /* ---- sensors ---- */
-
-static void write_escaped(FILE *file, const char *text);
 
 static void draw_solids(const drawing *d)
 {
@@ -137,27 +135,9 @@ static void draw_solids(const drawing *d)
                              : 0.5 * (s->form.lo[from] + s->form.hi[from]);
         }
         fprintf(d->file, "<text x='%.1f' y='%.1f'>", at_x(d, at[0]) + 8, at_y(d, at[1]));
-        write_escaped(d->file, s->name);
+        mps__html(d->file, s->name);
         fprintf(d->file, "</text>\n");
     }
-}
-
-/* A text as XML. */
-static void write_escaped(FILE *file, const char *text)
-{
-    for (; *text; text++) switch (*text) {
-        case '<':
-            fputs("&lt;", file);
-            break;
-        case '&':
-            fputs("&amp;", file);
-            break;
-        case '\'':
-            fputs("&#39;", file);
-            break;
-        default:
-            fputc(*text, file);
-        }
 }
 
 static bool has_place(const build_sensor *s)
@@ -217,7 +197,7 @@ static void draw_names(const drawing *d, bool right)
             at_x(d, next->at[d->axis]), at_y(d, next->at[1]), edge, y);
         fprintf(d->file, "<text x='%.1f' y='%.1f' text-anchor='%s'>", edge + (right ? 3 : -3),
                 y + 4, right ? "start" : "end");
-        write_escaped(d->file, next->name);
+        mps__html(d->file, next->name);
         fprintf(d->file, "</text>\n");
     }
 }
@@ -254,7 +234,7 @@ static void draw_words(const drawing *d, double y)
             y + LINE);
     for (int32_t i = 0; i < b->fluids; i++) {
         if (i) fprintf(d->file, ", ");
-        write_escaped(d->file, b->fluid[i].name);
+        mps__html(d->file, b->fluid[i].name);
     }
     fprintf(d->file, "</text>\n");
 }
@@ -307,7 +287,7 @@ char *mps__sketch_write(build *b)
                 "font-family='sans-serif' font-size='12'>\n<rect width='100%%' height='100%%' "
                 "fill='#fff'/>\n<text x='%d' y='20' font-size='14'>",
                 WIDTH, height, MARGIN);
-        write_escaped(file, mps__read_text(b->c, b->root, "title", ""));
+        mps__html(file, mps__read_text(b->c, b->root, "title", ""));
         fprintf(file, "</text>\n%s</svg>\n", body);
     }
     good = file && fclose(file) == 0 && size > 0;

@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* [dp]: by how much the lattice may change the faces of a box; boxes thinner than this are no bodies of any shape. */
+static const double off_lattice = 0.1, thin_box = 3;
+
 /* What is being read. */
 typedef struct reading {
     build *b;
@@ -110,22 +113,51 @@ static bool read_plate(reading *r, plate *p)
     return !mps__case_failed(b->c);
 }
 
+/* The nearest plane of the lattice, the walls of the tank included. */
+static double on_lattice(const double *origin, const double *h, int d, double x)
+{
+    /* midway between two planes rounding does not decide */
+    return origin[d] + floor((x - origin[d]) / h[d] + 0.5 + 1e-6) * h[d];
+}
+
+/* What a plate on the lattice became: the part between two slots as shares of the first side, and its place across. */
+static void note_piece(reading *r, const plate *p, const double *built)
+{
+    build_solid *out = r->out;
+    const int dim = r->b->dim;
+    double along[2] = {0, 0};
+    for (int d = 0; d < dim; d++) {
+        const double way = p->edge[0][d] / (p->length[0] * p->length[0]);
+        const int near = way < 0;
+        along[0] += way * (built[near * dim + d] - p->corner[d]);
+        along[1] += way * (built[!near * dim + d] - p->corner[d]);
+    }
+    for (int end = 0; end < 2; end++)
+        for (int d = 0; d < dim; d++)
+            if (d == p->axis) out->end[end][d] = 0.5 * (built[d] + built[dim + d]);
+    if (out->pieces == BUILD_PIECES) return;
+    memcpy(out->piece[out->pieces++], along, sizeof along);
+}
+
 /* In whole columns of the lattice, as near to its place as they are: n columns are n - 1 cells thick. */
 static bool add_flat(reading *r, const plate *p, const double *from, const double *to)
 {
     build *b = r->b;
-    double lo[3], hi[3], lattice[3];
-    if (!mps__build_try(b, mps_lattice_get(b->sim, NULL, lattice), r->map, r->name)) return false;
-    const double h = lattice[p->axis], columns = round(p->thickness / h) + 1;
-    for (int d = 0; d < 3; d++) {
-        lo[d] = fmin(from[d], to[d]);
-        hi[d] = fmax(from[d], to[d]);
+    double lo[3], hi[3], h[3], origin[3], built[6];
+    if (!mps__build_try(b, mps_lattice_get(b->sim, origin, h), r->map, r->name)) return false;
+    const int a = p->axis;
+    const double columns = round(p->thickness / h[a]) + 1;
+    for (int d = 0; d < b->dim; d++) {
+        lo[d] = on_lattice(origin, h, d, fmin(from[d], to[d]));
+        hi[d] = on_lattice(origin, h, d, fmax(from[d], to[d]));
     }
-    const double origin = b->tank.form.lo[p->axis];
-    const double first = origin + round((lo[p->axis] - origin) / h - 0.5 * (columns - 1)) * h;
-    lo[p->axis] = first;
-    hi[p->axis] = first + (columns - 1) * h;
-    return mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, NULL), r->map, r->name);
+    lo[a] = origin[a] +
+            floor((from[a] - origin[a]) / h[a] - 0.5 * (columns - 1) + 0.5 + 1e-6) * h[a];
+    hi[a] = lo[a] + (columns - 1) * h[a];
+    if (!mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, built), r->map, r->name))
+        return false;
+    note_piece(r, p, built);
+    return true;
 }
 
 static bool add_piece(reading *r, const plate *p, const double *at, const double *size)
@@ -153,15 +185,10 @@ static void add_plate(reading *r)
     if (mps__case_failed(r->b->c)) return;
     r->out->plate = true;
     for (int d = 0; d < 3; d++) {
-        r->out->end[0][d] = p.corner[d];
-        r->out->end[1][d] = p.corner[d] + p.edge[0][d];
+        r->out->asked[0][d] = r->out->end[0][d] = p.corner[d];
+        r->out->asked[1][d] = r->out->end[1][d] = p.corner[d] + p.edge[0][d];
     }
-    if (p.axis >= 0 && o.count == 0) {
-        double to[3];
-        for (int d = 0; d < 3; d++) to[d] = p.corner[d] + p.edge[0][d] + p.edge[1][d];
-        add_flat(r, &p, p.corner, to);
-        return;
-    }
+    if (p.axis >= 0) r->out->why = "plates along axes are on the lattice";
     double begin = 0;
     for (int32_t i = 0; i <= o.count && !mps__case_failed(r->b->c); i++) {
         const double end = i < o.count ? (i + 0.5) * o.pitch - 0.5 * o.gap : 1;
@@ -171,7 +198,65 @@ static void add_plate(reading *r)
     }
 }
 
+void mps__solid_piece(const build_solid *s, int32_t i, double part[2])
+{
+    const double pitch = s->slots > 0 ? 1.0 / s->slots : 1,
+                 gap = s->slots > 0 ? pitch * s->gap / s->pitch : 0;
+    part[0] = i > 0 ? (i - 0.5) * pitch + 0.5 * gap : 0;
+    part[1] = i < s->slots ? (i + 0.5) * pitch - 0.5 * gap : 1;
+    if (i < s->pieces) memcpy(part, s->piece[i], sizeof s->piece[i]);
+}
+
 /* ---- bodies ---- */
+
+/* Faces of a box that touch walls of a rectangular tank go through them: walls below the box are then in it, and not wetted. */
+static void enter_walls(const build *b, form *s)
+{
+    const form *t = &b->tank.form;
+    if (t->kind != FORM_BOX || b->tank.file) return;
+    for (int d = 0; d < b->dim; d++) {
+        if (s->lo[d] < t->lo[d] + 0.5 * b->dp) s->lo[d] = t->lo[d] - thin_box * b->dp;
+        if (s->hi[d] > t->hi[d] - 0.5 * b->dp) s->hi[d] = t->hi[d] + thin_box * b->dp;
+    }
+}
+
+/* A body of any shape. Its box reaches a little beyond its surface, and not far beyond the tank. */
+static void add_body(reading *r, const char *key)
+{
+    mps_solid solid;
+    if (mps__case_failed(r->b->c)) return;
+    mps__form_box(&r->out->form);
+    form s = r->out->form;
+    if (s.kind == FORM_BOX) enter_walls(r->b, &s);
+    mps_solid_init(&solid, sizeof solid);
+    solid.name = r->name;
+    solid.distance = mps__form_body;
+    solid.user = &s;
+    for (int d = 0; d < 3; d++) {
+        solid.lo[d] = s.lo[d] - r->b->dp;
+        solid.hi[d] = s.hi[d] + r->b->dp;
+    }
+    mps__build_try(r->b, mps_solid_add(r->b->sim, &solid), mps__tree_find(r->map, key), r->name);
+}
+
+/* Whether a box has its size within a tenth of a spacing on the lattice; then, or where it is too thin for a body, its corners there. */
+static bool box_on_lattice(const reading *r, const form *box, double *lo, double *hi)
+{
+    const build *b = r->b;
+    double h[3], origin[3];
+    bool near = true, thin = false;
+    if (mps_lattice_get(b->sim, origin, h) != MPS_OK) return true; /* the baffle is refused */
+    for (int d = 0; d < b->dim; d++) {
+        const double from = box->lo[d], to = box->hi[d];
+        lo[d] = fmax(b->tank.form.lo[d], on_lattice(origin, h, d, from));
+        hi[d] = fmin(b->tank.form.hi[d], on_lattice(origin, h, d, to));
+        near = near && (from <= b->tank.form.lo[d] || fabs(lo[d] - from) <= off_lattice * b->dp);
+        near = near && (to >= b->tank.form.hi[d] || fabs(hi[d] - to) <= off_lattice * b->dp);
+        thin = thin || to - from < thin_box * b->dp;
+    }
+    if (!near && thin) r->out->why = "boxes thinner than 3 dp are on the lattice";
+    return near || thin;
+}
 
 static void add_box(reading *r)
 {
@@ -186,25 +271,19 @@ static void add_box(reading *r)
         s->lo[d] = fmin(x[0][d], x[1][d]);
         s->hi[d] = fmax(x[0][d], x[1][d]);
     }
-    mps__build_try(b, mps_baffle_add(b->sim, r->name, s->lo, s->hi, NULL), node, r->name);
-}
-
-/* A body of any shape. Its box reaches a little beyond its surface, and not far beyond the tank. */
-static void add_body(reading *r, const char *key)
-{
-    form *s = &r->out->form;
-    mps_solid solid;
-    if (mps__case_failed(r->b->c)) return;
-    mps__form_box(s);
-    mps_solid_init(&solid, sizeof solid);
-    solid.name = r->name;
-    solid.distance = mps__form_body;
-    solid.user = s;
-    for (int d = 0; d < 3; d++) {
-        solid.lo[d] = s->lo[d] - r->b->dp;
-        solid.hi[d] = s->hi[d] + r->b->dp;
+    memcpy(r->out->asked[0], s->lo, sizeof s->lo);
+    memcpy(r->out->asked[1], s->hi, sizeof s->hi);
+    r->out->box = true;
+    double lo[3], hi[3], built[6];
+    memcpy(lo, s->lo, sizeof lo);
+    memcpy(hi, s->hi, sizeof hi);
+    if (!box_on_lattice(r, s, lo, hi)) {
+        add_body(r, "box");
+        return;
     }
-    mps__build_try(r->b, mps_solid_add(r->b->sim, &solid), mps__tree_find(r->map, key), r->name);
+    if (!mps__build_try(b, mps_baffle_add(b->sim, r->name, lo, hi, built), node, r->name)) return;
+    memcpy(s->lo, built, (size_t)b->dim * sizeof *built);
+    memcpy(s->hi, built + b->dim, (size_t)b->dim * sizeof *built);
 }
 
 static void add_cylinder(reading *r)
@@ -238,10 +317,8 @@ static void add_prism(reading *r)
 {
     build *b = r->b;
     form *s = &r->out->form;
-    double point[FORM_POINTS][3], z[2] = {b->tank.form.lo[2], b->tank.form.hi[2]};
-    s->kind = FORM_POLYGON;
-    s->points = mps__build_points(b, mps__tree_find(r->map, "prism"), 0, FORM_POINTS, point);
-    for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
+    double z[2] = {b->tank.form.lo[2], b->tank.form.hi[2]};
+    mps__build_polygon(b, mps__tree_find(r->map, "prism"), s);
     mps__read_numbers(b->c, r->map, "between", 2, z);
     s->lo[2] = z[0];
     s->hi[2] = z[1];

@@ -23,6 +23,34 @@ int32_t mps__build_points(build *b, const tree_node *node, double z, int32_t mos
     return mps__case_failed(b->c) ? 0 : count;
 }
 
+void mps__build_polygon(build *b, const tree_node *node, form *s)
+{
+    double point[FORM_POINTS][3], at[2];
+    int32_t side[2];
+    char path[PATH_ROOM];
+    s->kind = FORM_POLYGON;
+    const int32_t given = s->points = mps__build_points(b, node, 0, FORM_POINTS, point);
+    for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
+    if (mps__case_failed(b->c)) return;
+    mps__form_polygon_clean(s);
+    mps__tree_path(node, path, sizeof path);
+    if (s->points < 3) {
+        mps__case_say(b->c, node, false, "%s: %d of %d points differ; at least 3 are needed", path,
+                      (int)s->points, (int)given);
+    } else if (mps__form_polygon_crosses(s, side, at)) {
+        const double *p = s->point[side[0]], *q = s->point[(side[0] + 1) % s->points],
+                     *r = s->point[side[1]], *t = s->point[(side[1] + 1) % s->points];
+        const tree_node *line = node->first; /* of the point where the first side begins */
+        for (int32_t i = 0; i < given && (point[i][0] != p[0] || point[i][1] != p[1]); i++)
+            line = line->next;
+        mps__case_say(b->c, line, false,
+                      "%s: the side from (%g, %g) to (%g, %g) m meets the side from (%g, %g) to "
+                      "(%g, %g) m at (%.4g, %.4g) m; list the points in their order along the "
+                      "outline",
+                      path, p[0], p[1], q[0], q[1], r[0], r[1], t[0], t[1], at[0], at[1]);
+    }
+}
+
 int mps__build_kind(const tree_node *map, const char *const *kind, int count)
 {
     int k = 0;
@@ -50,14 +78,25 @@ static void read_size(build *b, const tree_node *map)
     for (int d = 0; d < 3; d++) s->hi[d] = s->lo[d] + size[d];
 }
 
+/* Height of the rows: in a tank of any shape cells fill its box along the horizontal axes and keep the volume of a particle. */
+static double row_height(const build *b, const tree_node *map)
+{
+    double height = b->dp;
+    if (!mps__tree_find(map, "chamfer")) return height;
+    for (int d = 0; d < b->dim; d += 2)
+        height *= round(b->tank.size[d] / b->dp) * b->dp / b->tank.size[d];
+    return height;
+}
+
 /* Two fluids meet at this height: the lattice has it half way between two rows, and the tank reaches as far up as down from it. */
 static void lay_about(build *b, const tree_node *map)
 {
     form *s = &b->tank.form;
     if (!mps__tree_find(map, "between_rows")) return;
+    const double h = row_height(b, map);
     const double middle = mps__read_number(b->c, map, "between_rows", NAN),
                  size = s->hi[1] - s->lo[1];
-    const double half = (floor(size / 2 / b->dp + 1e-6) + 0.5) * b->dp;
+    const double half = (floor(size / 2 / h + 1e-6) + 0.5) * h;
     s->lo[1] = middle - half;
     b->tank.size[1] = 2 * half;
     s->hi[1] = s->lo[1] + b->tank.size[1];
@@ -93,11 +132,8 @@ static void read_chamfer(build *b, const tree_node *map)
 static void read_polygon(build *b, const tree_node *map)
 {
     form *s = &b->tank.form;
-    double point[FORM_POINTS][3];
     const tree_node *node = mps__tree_find(map, "polygon");
-    s->kind = FORM_POLYGON;
-    s->points = mps__build_points(b, node, 0, FORM_POINTS, point);
-    for (int32_t i = 0; i < s->points; i++) memcpy(s->point[i], point[i], sizeof s->point[i]);
+    mps__build_polygon(b, node, s);
     s->hi[2] = mps__read_number(b->c, map, "width", 0);
     if (mps__case_failed(b->c)) return;
     mps__form_box(s);

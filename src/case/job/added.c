@@ -217,13 +217,14 @@ mps_status mps_job_value_add(mps_job *job, const char *name, const char *unit, c
     if (!job) return MPS_E_ARG;
     const mps_status status = check_column(job, name, unit, about);
     if (status != MPS_OK) return status;
-    if (!value || flags < 0 || flags > (MPS_JOB_PARTICLES | MPS_JOB_PRESSURE))
+    if (!value || flags < 0 || flags > (MPS_JOB_PARTICLES | MPS_JOB_PRESSURE | MPS_JOB_MOTION))
         return mps__job_refuse(job, MPS_E_ARG, "column '%s': needs a function, and known flags",
                                name);
     job_column *c = add_column(job, name, unit);
     if (!c) return MPS_E_NOMEM;
     snprintf(c->about, sizeof c->about, "%s", about);
     c->flags = flags;
+    if (flags & MPS_JOB_MOTION) c->type = "motion";
     c->value = value;
     c->user = user;
     return MPS_OK;

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Frames and pictures of a run, and its last state. */
+#include "picture_canvas.h"
 #include "run.h"
 #include <math.h>
 #include <stdio.h>
+#include <string.h>
 
 enum { QUARTERS = 4 };
 
@@ -12,7 +14,7 @@ static bool is_apart(const mps_job *job)
     return job->config.pieces && mps__job_ranks(job) > 1;
 }
 
-/* The present state, unless it is in the last frame already. */
+/* The present state, unless the last frame has it already. */
 static void write_frame(mps_job *job)
 {
     double t = 0;
@@ -28,6 +30,53 @@ static int64_t next_frame(const mps_job *job, double t)
     return (int64_t)(t / job->config.t_end * job->config.frames + 1e-9) + 1;
 }
 
+/* ---- frames about peaks ---- */
+
+/* Rows of a rise where nothing falls. */
+static const double RISE_ROWS = 100;
+/* The first pressures are looked at only behind this share of a fall. */
+static const double START_SHARE = 0.2;
+
+/* Of the tank, the spacing and the rows alone: a run that is extended has the peaks of one long
+ * run. A rise takes at most as long as a fall through the tank. Frames are as far apart as it takes
+ * liquid of the speed of that fall to cross a quarter of a spacing: a step or two. */
+void mps__peaks_begin(mps_job *job)
+{
+    const mps_job_config *c = &job->config;
+    const double tall = fmax(job->walls.hi[1] - job->walls.lo[1], job->dp),
+                 speed = sqrt(2 * fabs(c->gravity) * tall),
+                 fall = speed > 0 ? 2 * tall / speed : RISE_ROWS * c->row_interval,
+                 apart = speed > 0 ? 0.25 * job->dp / speed : 0;
+    mps__peaks_init(&job->peaks, c->frames > 0 ? c->peaks : 0, START_SHARE * fall, fall,
+                    fmax(apart, c->row_interval));
+    for (int k = 0; k < job->columns; k++)
+        if (strcmp(job->column[k].unit, "Pa") == 0) mps__peaks_add(&job->peaks, k + 1);
+}
+
+int mps__peaks_due(mps_job *job)
+{
+    if (!job->peak_frames) return 0;
+    const bool due = mps__job_first(job) && job->peaks.due;
+    job->peaks.due = false;
+    return mps__job_told(job, due ? DUE_PEAK : 0);
+}
+
+static int is_wanted(void *user, double t)
+{
+    return mps__peaks_wants(user, t);
+}
+
+/* Remove those that are about none of the highest peaks any more. Steps that are fitted to the end
+ * remove none: a run that is extended takes other steps, and may have other peaks, instead. */
+static void remove_peaks(mps_job *job)
+{
+    if (!job->peaks.changed || !job->peak_frames || job->fitted) return;
+    job->peaks.changed = false;
+    mps__job_note(job, mps_frames_remove(job->peak_frames, is_wanted, &job->peaks), "peaks");
+}
+
+/* ---- frames ---- */
+
 void mps__frames_begin(mps_job *job)
 {
     const mps_job_config *c = &job->config;
@@ -35,9 +84,16 @@ void mps__frames_begin(mps_job *job)
     const int32_t flags = (c->resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0) |
                           (c->tank_frame ? MPS_FRAMES_TANK : 0);
     job->frame_t = -1;
+    /* what was due for the rows before a checkpoint was done before it */
+    job->peaks.due = job->peaks.changed = false;
     if (c->frames == 0 || !(pieces || mps__job_gather(job))) return;
     mps__job_note(job, mps_frames_open(job->sim, c->folder, "frames", flags, &job->frames),
                   "frames");
+    if (job->peaks.signals > 0)
+        mps__job_note(job,
+                      mps_frames_open(job->sim, c->folder, "peaks", flags | MPS_FRAMES_STEPS,
+                                      &job->peak_frames),
+                      "peaks");
     if (!c->resume) write_frame(job);
     job->frame = next_frame(job, job->totals.t);
     if (!pieces) mps__job_gather_end(job);
@@ -92,24 +148,39 @@ static void draw_next(mps_job *job, double t)
     draw(job, name);
 }
 
+/* One state may be in both series: that about peaks does not depend on the times of the other. */
+static void write_due(mps_job *job, int due)
+{
+    if (due & DUE_FRAME) write_frame(job);
+    if (due & DUE_PEAK) mps__job_note(job, mps_frames_write(job->peak_frames), "peaks");
+}
+
 void mps__drawing_do(mps_job *job, double t, int due)
 {
     const bool frame = due & DUE_FRAME, picture = due & DUE_PICTURE, apart = is_apart(job);
+    const bool whole = due & (DUE_FRAME | DUE_PEAK);
     if (frame) job->frame = next_frame(job, t);
-    if (frame && apart) write_frame(job);
-    if (!(picture || (frame && !apart)) || !mps__job_gather(job)) return;
-    if (frame && !apart) write_frame(job);
-    if (mps__job_first(job) && picture) draw_next(job, t);
-    mps__job_gather_end(job);
+    if (whole && apart) write_due(job, due);
+    if ((picture || (whole && !apart)) && mps__job_gather(job)) {
+        if (whole && !apart) write_due(job, due);
+        if (mps__job_first(job) && picture) draw_next(job, t);
+        mps__job_gather_end(job);
+    }
+    if (mps__job_first(job)) remove_peaks(job);
 }
 
 void mps__drawing_end(mps_job *job, mps_status status)
 {
-    if (is_apart(job) && status >= 0) write_frame(job);
+    /* of a run that goes on from here the frames are at the times of one that was not stopped */
+    const bool frame = status != MPS_W_STOPPED;
+    if (frame && is_apart(job) && status >= 0) write_frame(job);
     if (mps__job_gather(job)) { /* not where a rank has failed */
-        if (!is_apart(job)) write_frame(job);
+        if (frame && !is_apart(job)) write_frame(job);
         if (mps__job_first(job)) {
             draw(job, "picture_end.png");
+            if (!mps__canvas_letters())
+                mps__job_tell(job, "warning: pictures have no letters: no font can be drawn; "
+                                   "install one, as of fonts-dejavu-core, and run 'fc-cache -f'");
             for (int k = 0; k < job->figures; k++)
                 if (job->figure[k].flags & MPS_JOB_PARTICLES)
                     job->figure[k].measured = job->figure[k].value(job->figure[k].user, job->sim);
@@ -117,5 +188,6 @@ void mps__drawing_end(mps_job *job, mps_status status)
         mps__job_gather_end(job);
     }
     mps_frames_close(job->frames);
-    job->frames = NULL;
+    mps_frames_close(job->peak_frames);
+    job->frames = job->peak_frames = NULL;
 }

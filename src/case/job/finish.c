@@ -34,11 +34,10 @@ static int32_t exit_code(const mps_job *job, mps_status status)
     return status < 0 ? MPS_EXIT_FAILED : MPS_EXIT_OK;
 }
 
-/* Where an interrupted run can go on, and one that has come to its end can be extended. */
+/* From here an interrupted run goes on. Once steps are fitted to the end, the checkpoint before them is the one to go on from. */
 static void last_checkpoint(mps_job *job, mps_status status)
 {
-    if (status < 0 || job->output_failed) return;
-    if (status == MPS_W_STOPPED || job->config.checkpoint > 0) mps__resume_save(job);
+    if (status == MPS_W_STOPPED && !job->output_failed) mps__resume_save(job);
 }
 
 static void close_tables(mps_job *job)
@@ -60,15 +59,15 @@ static void say_failure(mps_job *job, int32_t code, mps_status status)
     if (code == MPS_EXIT_INTERRUPTED)
         mps__job_tell(job,
                       "interrupted at t = %.6g s after %lld steps; outputs are complete up to "
-                      "there; go on with --resume and the same options",
-                      s->t, (long long)s->steps);
+                      "there; %s%s continues",
+                      s->t, (long long)s->steps, mps__resume_words(job), mps__resume_folder(job));
     else if (status < 0)
         mps__job_tell(job, "%s at t = %.6g s, step %lld: %s", mps_status_name(status), s->t,
                       (long long)s->steps + 1, job->error);
     else if (code != MPS_EXIT_OK && failed)
         mps__job_tell(job, "stopped at t = %.6g s, outputs cannot be written: %s; %s%s", s->t,
                       strerror(failed->error), mps__folder_advice(failed->error),
-                      job->checkpoint_t > 0 ? "; --resume goes on from the last checkpoint" : "");
+                      job->checkpoint_t > 0 ? "; then continue from the last checkpoint" : "");
     else if (code != MPS_EXIT_OK)
         mps__job_tell(job, "%s", job->error[0] ? job->error : "an output could not be written");
 }
@@ -109,7 +108,7 @@ static int32_t report(mps_job *job, mps_status status)
     if (!job->config.quiet && code != MPS_EXIT_USAGE) say_end(job);
     if (job->config.profile && code != MPS_EXIT_USAGE) show_profile(job);
     /* refused before its first step: what it wrote is no run that another one must keep */
-    if (code == MPS_EXIT_USAGE) mps__resume_forget(job);
+    if (code == MPS_EXIT_USAGE) mps__resume_forget(job, NULL);
     return code;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Folders are locked by fcntl() on a file in them: the system removes the lock however the program
- * ends, and tells which process holds it. */
+ * ends, and tells which process holds it. The file names the machine and the process. */
 #include "folder.h"
 #include <dirent.h>
 #include <errno.h>
@@ -9,17 +9,24 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
-enum { FOLDER_ROOM = 65536 /* bytes that must fit on the disk */ };
+enum {
+    FOLDER_ROOM = 65536, /* bytes that must fit on the disk */
+    FOLDER_HOST = 128,
+    FOLDER_STALE =
+        900 /* [s] after which the lock of another machine that is not renewed holds no more */
+};
 
 static const char LOCK[] = "run.lock";
 
 /* What every job writes, beside frames/. The first ones tell that there is a run. */
 static const char *const FILES[] = {
-    "checkpoint.mps",     "probes.csv",      "steps.csv", "frames.pvd",  "summary.json",
-    "checkpoint.mps.tmp", "momentum.csv",    "trace.csv", "report.html", "report.html.tmp",
-    "frames.pvd.tmp",     "picture_end.png", "film.mp4",  "paraview.py", "case.yaml"};
+    "checkpoint.mps",     "probes.csv",   "steps.csv",     "frames.pvd",      "summary.json",
+    "checkpoint.mps.tmp", "momentum.csv", "trace.csv",     "report.html",     "report.html.tmp",
+    "frames.pvd.tmp",     "peaks.pvd",    "peaks.pvd.tmp", "picture_end.png", "film.mp4",
+    "paraview.py",        "case.yaml",    "case.yaml.tmp", "summary.json.tmp"};
 enum { FOLDER_FILES = sizeof FILES / sizeof *FILES, FOLDER_SIGNS = 5 };
 
 const char *mps__folder_advice(int error)
@@ -100,13 +107,57 @@ static mps_status folder_refuse_locked(const folder *f, int fd, char *error, siz
 static bool folder_has_room(int fd)
 {
     static const char zeros[FOLDER_ROOM];
-    const ssize_t written = write(fd, zeros, sizeof zeros);
+    const ssize_t written = pwrite(fd, zeros, sizeof zeros, 0);
     if (written >= 0 && written < (ssize_t)sizeof zeros) errno = ENOSPC;
     const bool good = written == (ssize_t)sizeof zeros && fsync(fd) == 0;
     const int error = errno;
     if (ftruncate(fd, 0) != 0 && good) return false;
     errno = error;
     return good;
+}
+
+/* The name of this machine. */
+static void folder_host(char host[FOLDER_HOST])
+{
+    if (gethostname(host, FOLDER_HOST) != 0) host[0] = '\0';
+    host[FOLDER_HOST - 1] = '\0';
+    host[strcspn(host, " \n")] = '\0';
+}
+
+/* Disks that several machines share may not pass locks on. So the file names its machine and process, and a run renews it: that of another
+ * machine which is not older than FOLDER_STALE holds. That of this machine has ended, or fcntl() would have said so. */
+static bool folder_is_held_elsewhere(const folder *f, int fd, char *error, size_t size)
+{
+    char text[FOLDER_HOST + 40] = "", host[FOLDER_HOST], holder[FOLDER_HOST];
+    long process = 0;
+    struct stat s;
+    folder_host(host);
+    if (pread(fd, text, sizeof text - 1, 0) <= 0 || fstat(fd, &s) != 0) return false;
+    const size_t length = strcspn(text, " ");
+    if (length == 0 || length >= FOLDER_HOST || text[length] != ' ') return false;
+    snprintf(holder, sizeof holder, "%.*s", (int)length, text);
+    process = strtol(text + length, NULL, 10);
+    const double age = difftime(time(NULL), s.st_mtime);
+    if (strcmp(holder, host) == 0 || age > FOLDER_STALE) return false;
+    snprintf(error, size,
+             "--out %s: another run is writing there, process %ld on %s, %.0f s ago; wait until it "
+             "ends, or %d s if that machine is down, or choose another folder with --out",
+             f->path, process, holder, age > 0 ? age : 0, FOLDER_STALE);
+    return true;
+}
+
+void mps__folder_renew(const folder *f)
+{
+    if (f->lock[0]) futimens(f->fd, NULL); /* a failure costs no more than a wrong age */
+}
+
+/* Write who has the lock. @return false: errno */
+static bool folder_sign(int fd)
+{
+    char text[FOLDER_HOST + 40], host[FOLDER_HOST];
+    folder_host(host);
+    const int length = snprintf(text, sizeof text, "%s %ld\n", host, (long)getpid());
+    return pwrite(fd, text, (size_t)length, 0) == length;
 }
 
 static mps_status folder_lock(folder *f, char *error, size_t size)
@@ -125,10 +176,15 @@ static mps_status folder_lock(folder *f, char *error, size_t size)
             close(fd);
             return status;
         }
+        if (folder_is_held_elsewhere(f, fd, error, size)) {
+            close(fd);
+            return MPS_E_BUSY;
+        }
         if (folder_is_current(fd, path)) {
             f->fd = fd;
             memcpy(f->lock, path, sizeof path);
-            return folder_has_room(fd) ? MPS_OK : folder_refuse(f, errno, error, size);
+            const bool good = folder_has_room(fd) && folder_sign(fd);
+            return good ? MPS_OK : folder_refuse(f, errno, error, size);
         }
         close(fd);
     }
@@ -154,11 +210,11 @@ static mps_status folder_check(const folder *f, char *error, size_t size)
     }
     if (!there[0]) return MPS_OK;
     snprintf(error, size,
-             "--out %s: there is an earlier run (%s); %s, --overwrite removes it, or choose "
-             "another folder with --out",
+             "--out %s: there is an earlier run (%s); --resume %s, --overwrite removes it, or "
+             "choose another folder with --out",
              f->path, there,
-             folder_has(f, FILES[0]) ? "--resume goes on from its checkpoint"
-                                     : "it has no checkpoint to go on from with --resume");
+             folder_has(f, FILES[0]) ? "goes on from its checkpoint"
+                                     : "begins it again, since it has no checkpoint");
     return MPS_E_STATE;
 }
 
@@ -176,12 +232,11 @@ mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error,
 
 /* ---- removal ---- */
 
-static bool folder_remove(const folder *f, const char *name, char *error, size_t size)
+/* A file of a folder that is open, "place/name" in messages; of a link the link itself. */
+static bool folder_remove(int fd, const char *place, const char *name, char *error, size_t size)
 {
-    char path[FOLDER_PATH + 300];
-    snprintf(path, sizeof path, "%s/%s", f->path, name);
-    if (unlink(path) == 0 || errno == ENOENT) return true;
-    snprintf(error, size, "--overwrite: cannot remove %s: %s; %s", path, strerror(errno),
+    if (unlinkat(fd, name, 0) == 0 || errno == ENOENT) return true;
+    snprintf(error, size, "--overwrite: cannot remove %s/%s: %s; %s", place, name, strerror(errno),
              mps__folder_advice(errno));
     return false;
 }
@@ -198,38 +253,91 @@ static bool folder_is_numbered(const char *name, const char *before, size_t digi
     return count >= digits && strcmp(rank >= 4 ? end + 1 + rank : end, after) == 0;
 }
 
-/* Files of a folder, "" or ending in '/', with a beginning, a number and an end. */
-static bool folder_remove_numbered(const folder *f, const char *const pattern[3], size_t digits,
+static bool folder_is_link(const folder *f, const char *name, char *error, size_t size)
+{
+    char path[FOLDER_PATH + 300];
+    struct stat s;
+    snprintf(path, sizeof path, "%s/%s", f->path, name);
+    if (lstat(path, &s) != 0 || !S_ISLNK(s.st_mode)) return false;
+    snprintf(
+        error, size,
+        "--resume: %s is a link: what it leads to is not changed; put the file or folder itself "
+        "there",
+        path);
+    return true;
+}
+
+bool mps__folder_has_no_links(const folder *f, char *error, size_t size)
+{
+    bool link = folder_is_link(f, "frames", error, size) || folder_is_link(f, "peaks", error, size);
+    for (int i = 0; i < FOLDER_FILES && !link; i++) link = folder_is_link(f, FILES[i], error, size);
+    DIR *all = link ? NULL : opendir(f->path);
+    for (const struct dirent *e; !link && all && (e = readdir(all)) != NULL;)
+        link = folder_is_numbered(e->d_name, "picture_", 1, ".png") &&
+               folder_is_link(f, e->d_name, error, size);
+    if (all) closedir(all);
+    return !link;
+}
+
+/* What is removed by number: beginning and end of names. */
+typedef struct numbered {
+    const char *before, *after;
+} numbered;
+
+static bool folder_remove_numbered(int fd, const char *place, const numbered *n, size_t digits,
                                    char *error, size_t size)
 {
-    char path[FOLDER_PATH + 64], name[288];
+    const int own = openat(fd, ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    DIR *all = own >= 0 ? fdopendir(own) : NULL;
     bool done = true;
-    snprintf(path, sizeof path, "%s/%s", f->path, pattern[0]);
-    DIR *there = opendir(path);
-    for (const struct dirent *e; done && there && (e = readdir(there)) != NULL;) {
-        if (!folder_is_numbered(e->d_name, pattern[1], digits, pattern[2])) continue;
-        snprintf(name, sizeof name, "%s%s", pattern[0], e->d_name);
-        done = folder_remove(f, name, error, size);
-    }
-    if (there) closedir(there);
+    if (own >= 0 && !all) close(own);
+    for (const struct dirent *e; done && all && (e = readdir(all)) != NULL;)
+        if (folder_is_numbered(e->d_name, n->before, digits, n->after))
+            done = folder_remove(fd, place, e->d_name, error, size);
+    if (all) closedir(all);
     return done;
 }
 
-bool mps__folder_clear(const folder *f, char *error, size_t size)
+/* Frames, in a folder `name` of the run itself: through a link the files of another folder would be removed. */
+static bool folder_clear_frames(int fd, const char *place, const char *name, char *error,
+                                size_t size)
 {
-    /* folder, beginning and end of names */
-    static const char *const pictures[3] = {"", "picture_", ".png"},
-                             *const frames[][3] = {{"frames/", "frames_", ".vtp"},
-                                                   {"frames/", "frames_", ".vtp.tmp"},
-                                                   {"frames/", "frames_", ".pvtp"},
-                                                   {"frames/", "frames_", ".pvtp.tmp"}};
-    char path[FOLDER_PATH + 64];
-    for (int i = 0; i < FOLDER_FILES; i++)
-        if (!folder_remove(f, FILES[i], error, size)) return false;
-    if (!folder_remove_numbered(f, pictures, 1, error, size)) return false;
-    for (int i = 0; i < 4; i++)
-        if (!folder_remove_numbered(f, frames[i], 6, error, size)) return false;
-    snprintf(path, sizeof path, "%s/frames", f->path);
-    rmdir(path); /* if nothing else is in it */
-    return true;
+    static const char *const ends[] = {".vtp", ".vtp.tmp", ".pvtp", ".pvtp.tmp"};
+    char path[FOLDER_PATH + 16], before[16];
+    const int frames = openat(fd, name, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    bool done = true;
+    if (frames < 0 && errno == ENOENT) return true;
+    snprintf(path, sizeof path, "%s/%s", place, name);
+    if (frames < 0) {
+        snprintf(error, size,
+                 "--overwrite: %s is a link or no folder: what it leads to is not removed; remove "
+                 "it, or choose another folder with --out",
+                 path);
+        return false;
+    }
+    snprintf(before, sizeof before, "%s_", name);
+    for (size_t i = 0; done && i < sizeof ends / sizeof *ends; i++)
+        done = folder_remove_numbered(frames, path, &(numbered){before, ends[i]}, 6, error, size);
+    close(frames);
+    if (done) unlinkat(fd, name, AT_REMOVEDIR); /* if nothing else is in it */
+    return done;
+}
+
+bool mps__folder_clear(const folder *f, const char *keep, char *error, size_t size)
+{
+    static const numbered pictures = {"picture_", ".png"};
+    const int fd = open(f->path, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (fd < 0) {
+        snprintf(error, size, "--overwrite: %s: %s; %s", f->path, strerror(errno),
+                 mps__folder_advice(errno));
+        return false;
+    }
+    bool done = folder_clear_frames(fd, f->path, "frames", error, size) &&
+                folder_clear_frames(fd, f->path, "peaks", error, size);
+    for (int i = 0; done && i < FOLDER_FILES; i++)
+        if (!keep || strcmp(keep, FILES[i]) != 0)
+            done = folder_remove(fd, f->path, FILES[i], error, size);
+    if (done) done = folder_remove_numbered(fd, f->path, &pictures, 1, error, size);
+    close(fd);
+    return done;
 }

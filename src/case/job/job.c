@@ -126,9 +126,11 @@ mps_status mps_job_config_init(mps_job_config *config, size_t size)
                                .gravity = 9.81,
                                .average = MPS_AVERAGE_AUTO,
                                .frames = 50,
+                               .peaks = 10,
                                .report = 1,
                                .threads = 1,
-                               .page_bytes = 12000000};
+                               .page_bytes = 12000000,
+                               .checkpoint_clock = 600};
     return MPS_OK;
 }
 
@@ -143,6 +145,7 @@ static const char *check(const mps_job_config *c)
     if (!isfinite(c->gravity)) return "gravity must be a number";
     if (!(c->dp >= 0) || !isfinite(c->dp)) return "dp must be >= 0";
     if (c->frames < 0) return "frames must be >= 0";
+    if (c->peaks < 0) return "peaks must be >= 0";
     if (c->threads < 1) return "threads must be >= 1";
     if (c->report && c->page_bytes < PAGE_LEAST) return "page_bytes must be >= 500000";
     if (c->picture_count < 0 || (c->picture_count > 0 && !c->picture_t))
@@ -335,6 +338,15 @@ mps_status mps_job_input_add(mps_job *job, const char *key, const char *value)
     free(i->key);
     free(i->value);
     return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
+}
+
+mps_status mps_job_plugin_add(mps_job *job, const mps_plugin_file *plugin)
+{
+    if (!job) return MPS_E_ARG;
+    if (!plugin || job->plugins == JOB_PLUGINS)
+        return mps__job_refuse(job, MPS_E_ARG, "a job names at most %d plug-ins", JOB_PLUGINS);
+    job->plugin[job->plugins++] = plugin;
+    return MPS_OK;
 }
 
 mps_status mps_job_edges_add(mps_job *job, int32_t count, const double *ends)

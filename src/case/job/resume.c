@@ -5,33 +5,72 @@
 #include <errno.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 enum { RESUME_PATH = 560 };
+
+/* Share of the time of a run that checkpoints by the clock may take. */
+static const double CLOCK_SHARE = 0.01;
+
+/* As mps_run() fits them, and how much longer than the last one a step may be by default; where mps_time_control.growth is larger, the
+ * checkpoint before the fitted steps may be missing, and more steps are taken again. */
+static const double FITTED_STEPS = 20, FITTED_GROWTH = 1.11;
 
 static void path_of(const mps_job *job, char path[RESUME_PATH])
 {
     snprintf(path, RESUME_PATH, "%s/checkpoint.mps", job->place.path);
 }
 
-/* Whether the run in the folder came to its end. */
-static bool is_done(const mps_job *job)
+/* A run of a case is that of 'mps', other jobs are those of drivers. */
+const char *mps__resume_words(const mps_job *job)
 {
-    char path[RESUME_PATH], line[256];
-    bool done = false;
+    return job->config.text ? "mps resume " : "--resume with the same options";
+}
+
+const char *mps__resume_folder(const mps_job *job)
+{
+    return job->config.text ? job->place.path : "";
+}
+
+static const char *end_option(const mps_job *job)
+{
+    return job->config.text ? "run.until" : "--t-end";
+}
+
+/* A number of summary.json in the folder; NAN: it has none. @param done  out, or NULL: that run reached its end */
+static double number_of(const mps_job *job, const char *key, bool *done)
+{
+    char path[RESUME_PATH], line[256], wanted[40];
+    double value = NAN;
+    const size_t length = (size_t)snprintf(wanted, sizeof wanted, "  \"%s\": ", key);
+    if (done) *done = false;
     snprintf(path, sizeof path, "%s/summary.json", job->place.path);
     FILE *in = fopen(path, "r");
-    while (in && fgets(line, sizeof line, in))
-        done = done || strstr(line, "\"status\": \"ok\"") != NULL;
+    while (in && fgets(line, sizeof line, in)) {
+        if (done && strstr(line, "\"status\": \"ok\"")) *done = true;
+        if (strncmp(line, wanted, length) == 0) value = strtod(line + length, NULL);
+    }
     if (in) fclose(in);
-    return done;
+    return value;
 }
+
+/* The end that the run in the folder reached [s]; NAN: it did not. */
+static double reached_end(const mps_job *job)
+{
+    bool done;
+    const double t = number_of(job, "t_end", &done);
+    return done ? t : NAN;
+}
+
+/* ---- writing ---- */
 
 /* Rows up to now are on the disk, and no checkpoint is. One without the rows before it would be of no use, the one that is there may be. */
 static bool sync_rows(mps_job *job)
 {
-    if (job->checkpoint_t == job->totals.t) return false;
+    if (job->fitted || job->checkpoint_t == job->totals.t) return false;
     table *const all[] = {&job->probes, &job->momentum, &job->steps, &job->trace_rows};
     bool failed = false;
     for (int k = 0; k < (job->config.trace ? 4 : 3); k++) {
@@ -42,13 +81,22 @@ static bool sync_rows(mps_job *job)
     return !failed;
 }
 
+/* Time of the next checkpoint by the clock, if this one took so many seconds. */
+static void set_clock(mps_job *job, double seconds)
+{
+    job->checkpoint_clock = mps__progress_clock() +
+                            fmax(job->config.checkpoint_clock, seconds / CLOCK_SHARE);
+}
+
 void mps__resume_save(mps_job *job)
 {
     char path[RESUME_PATH];
+    const double begin = mps__progress_clock();
     path_of(job, path);
     if (!mps__job_told(job, mps__job_first(job) && sync_rows(job))) return;
     if (mps__job_note(job, mps_checkpoint_write(job->sim, path), "checkpoint"))
         job->checkpoint_t = job->totals.t;
+    set_clock(job, mps__progress_clock() - begin);
 }
 
 /* Number of the first checkpoint behind t. */
@@ -57,30 +105,62 @@ static int64_t next_of(const mps_job *job, double t)
     return job->config.checkpoint > 0 ? (int64_t)(t / job->config.checkpoint + 1e-9) + 1 : 0;
 }
 
-bool mps__resume_due(mps_job *job, double t)
+/* The next step may be the first of those whose lengths are fitted to the end. */
+static bool may_be_fitted(const mps_job *job, const mps_step_info *info)
 {
-    if (job->config.checkpoint == 0 || next_of(job, t) == job->checkpoint) return false;
-    job->checkpoint = next_of(job, t);
-    return true;
+    return job->config.t_end - info->t <= FITTED_STEPS * FITTED_GROWTH * info->dt;
 }
 
-bool mps__resume_forget(mps_job *job)
+bool mps__resume_due(mps_job *job, const mps_step_info *info)
 {
-    const bool done = mps__folder_clear(&job->place, job->error, sizeof job->error);
-    job->checkpoint = 1;
+    const int64_t next = next_of(job, info->t);
+    const bool by_time = next != job->checkpoint,
+               by_clock = job->config.checkpoint_clock > 0 &&
+                          mps__progress_clock() >= job->checkpoint_clock;
+    job->fitted = job->fitted || strcmp(info->limit, "caller") == 0;
+    job->checkpoint = next;
+    return !job->fitted && (by_time || by_clock || may_be_fitted(job, info));
+}
+
+bool mps__resume_forget(mps_job *job, const char *keep)
+{
+    const bool done = mps__folder_clear(&job->place, keep, job->error, sizeof job->error);
+    job->checkpoint = next_of(job, 0);
+    set_clock(job, 0);
     if (!done && !job->code) job->code = MPS_EXIT_USAGE;
     return done;
 }
 
+/* ---- going on ---- */
+
 /* Why there is no state to go on from. */
-static bool refuse_checkpoint(mps_job *job, mps_status status, bool missing)
+static bool refuse_checkpoint(mps_job *job, mps_status status)
 {
     const bool usage = status == MPS_E_ARG || status == MPS_E_IO || status == MPS_E_VERSION;
-    return mps__job_fail(
-        job, usage ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "--resume: %s%s; %s" RESUME_ANEW,
-        mps_sim_error(job->sim),
-        missing && is_done(job) ? "; the run there has come to its end" : "",
-        missing ? "only an interrupted run or one with --checkpoint leaves a checkpoint; " : "");
+    return mps__job_fail(job, usage ? MPS_EXIT_USAGE : MPS_EXIT_FAILED,
+                         "--resume: %s; " RESUME_ANEW, mps_sim_error(job->sim));
+}
+
+/* A run that was killed before its first checkpoint, or is too short to have one, begins again. */
+static bool begin_again(mps_job *job)
+{
+    char path[RESUME_PATH];
+    const double end = reached_end(job);
+    if (job->config.t_end <= end)
+        return mps__job_fail(job, MPS_EXIT_USAGE,
+                             "--resume: the run in '%s' reached its end, t = %g s, and has no "
+                             "checkpoint; give a later %s, or " RESUME_ANEW,
+                             job->place.path, end, end_option(job));
+    snprintf(path, sizeof path, "%s/%s", job->place.path,
+             job->config.text ? "case.yaml" : "steps.csv");
+    if (access(path, F_OK) != 0)
+        return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: there is no run in '%s'",
+                             job->place.path);
+    job->config.resume = 0;
+    if (!job->config.quiet)
+        mps__job_tell(job, "--resume: the run in '%s' has no checkpoint: it begins again at t = 0",
+                      job->place.path);
+    return true;
 }
 
 bool mps__resume_read(mps_job *job)
@@ -89,22 +169,24 @@ bool mps__resume_read(mps_job *job)
     double t = 0;
     struct stat there;
     path_of(job, path);
-    const bool missing = stat(path, &there) != 0 && errno == ENOENT;
+    if (stat(path, &there) != 0 && errno == ENOENT) return begin_again(job);
     const mps_status status = mps_checkpoint_read(job->sim, path);
-    if (status < 0) return refuse_checkpoint(job, status, missing);
+    if (status < 0) return refuse_checkpoint(job, status);
     mps_sim_time(job->sim, &t, NULL);
     if (t > job->config.t_end)
-        return mps__job_fail(
-            job, MPS_EXIT_USAGE,
-            "--resume: the checkpoint is at t = %g s, later than --t-end %g; give a later --t-end",
-            t, job->config.t_end);
-    if (t == job->config.t_end && !job->config.quiet)
+        return mps__job_fail(job, MPS_EXIT_USAGE,
+                             "--resume: the checkpoint is at t = %g s, later than %s, %g s; give a "
+                             "later end",
+                             t, end_option(job), job->config.t_end);
+    if (!isnan(reached_end(job)) && !job->config.quiet)
         mps__job_tell(job,
-                      "--resume: this run has come to its end, t = %g s: no step is left, its last "
-                      "picture, plots and report are written again; a later --t-end goes on",
-                      t);
+                      "--resume: the run in '%s' reached its end; its last steps from t = %g s are "
+                      "taken again; a later %s extends it",
+                      job->place.path, t, end_option(job));
+    job->fluid_at_start = number_of(job, "n_fluid", NULL);
     job->totals.t_before = job->checkpoint_t = t;
     job->checkpoint = next_of(job, t);
+    set_clock(job, 0);
     return true;
 }
 

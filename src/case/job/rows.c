@@ -7,17 +7,28 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
+
+static const char CASE_FILE[] = "case.yaml";
 
 /* ---- opening ---- */
+
+/* What follows from the rows also when the run goes on with them. */
+static void attach(mps_job *job, table *t)
+{
+    if (t == &job->steps) t->each = mps__resume_add_step;
+    if (t == &job->probes) t->each = mps__peaks_row;
+    t->user = t == &job->probes ? (void *)&job->peaks : job;
+}
 
 static bool open_table(mps_job *job, table *t, const char *name, const char *header, int columns)
 {
     const double interval = t == &job->steps ? 0 : job->config.row_interval;
-    const bool done = mps__table_create(t, job->place.path, name, columns, interval) &&
-                      (job->config.resume
-                           ? mps__table_resume(t, header, job->totals.t_before,
-                                               t == &job->steps ? mps__resume_add_step : NULL, job)
-                           : mps__table_begin(t, header));
+    bool done = mps__table_create(t, job->place.path, name, columns, interval);
+    attach(job, t);
+    if (done)
+        done = job->config.resume ? mps__table_resume(t, header, job->totals.t_before)
+                                  : mps__table_begin(t, header);
     if (done) return true;
     if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
     return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
@@ -64,25 +75,40 @@ static bool open_momentum(mps_job *job)
     return open_table(job, &job->momentum, "momentum.csv", header, 1 + job->dim * MOMENTUM_COLUMNS);
 }
 
-/* The case as run. */
+/* The case as run. A process that is killed leaves this one or the one before it. */
 static bool write_case(mps_job *job)
 {
-    char path[FOLDER_PATH + 16];
+    char path[FOLDER_PATH + 16], temporary[FOLDER_PATH + 24];
     if (!job->config.text) return true;
-    snprintf(path, sizeof path, "%s/case.yaml", job->place.path);
-    FILE *out = fopen(path, "w");
+    snprintf(path, sizeof path, "%s/%s", job->place.path, CASE_FILE);
+    snprintf(temporary, sizeof temporary, "%s.tmp", path);
+    FILE *out = fopen(temporary, "w");
     bool done = out && fputs(job->config.text, out) >= 0;
     if (out && fclose(out) != 0) done = false;
-    return done || mps__job_fail(job, MPS_EXIT_USAGE, "%s: %s", path, strerror(errno));
+    if (done && rename(temporary, path) == 0) return true;
+    mps__job_fail(job, MPS_EXIT_USAGE, "%s: %s", path, strerror(errno));
+    if (out) unlink(temporary);
+    return false;
 }
 
-bool mps__job_open_tables(mps_job *job)
+static bool open_all(mps_job *job)
 {
-    if (!job->config.resume && !mps__resume_forget(job)) return false;
     return open_probes(job) && open_momentum(job) &&
            open_table(job, &job->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS) &&
-           mps__trace_open(job) && write_case(job) &&
-           (!job->config.resume || mps__resume_tables(job));
+           mps__trace_open(job);
+}
+
+/* The case is there before the rows of a new run, so that a run that is killed can begin again. */
+bool mps__job_open_tables(mps_job *job)
+{
+    if (!job->config.resume)
+        return mps__resume_forget(job, job->config.text ? CASE_FILE : NULL) && write_case(job) &&
+               open_all(job);
+    if (!mps__folder_has_no_links(&job->place, job->error, sizeof job->error)) {
+        job->code = MPS_EXIT_USAGE;
+        return false;
+    }
+    return open_all(job) && mps__resume_tables(job) && write_case(job);
 }
 
 /* ---- rows ---- */

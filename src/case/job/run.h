@@ -5,6 +5,7 @@
 
 #include "folder.h"
 #include "measure.h"
+#include "peaks.h"
 #include "picture_scene.h"
 #include "progress.h"
 #include "table.h"
@@ -15,7 +16,7 @@
 #include <signal.h>
 #include <stdbool.h>
 
-enum { JOB_ERROR = 1024, JOB_NAME = 32, JOB_UNIT = 16, JOB_ABOUT = 240 };
+enum { JOB_ERROR = 1024, JOB_NAME = 32, JOB_UNIT = 16, JOB_ABOUT = 240, JOB_PLUGINS = 16 };
 
 /* One column of probes.csv: a probe's value minus `zero`, or a quantity. */
 typedef struct job_column {
@@ -97,6 +98,8 @@ struct mps_job {
     job_reference *reference;
     job_input *input;
     job_outline *outline;
+    int32_t plugins;
+    const mps_plugin_file *plugin[JOB_PLUGINS];
     int32_t edges;
     double *edge; /* [6*edges] */
     trace_figure **trace;
@@ -111,19 +114,26 @@ struct mps_job {
     int64_t all_count, all_room;
     bool all_failed;
     mps_frames *frames;
-    int64_t frame;      /* next frame */
-    double frame_t;     /* of the last frame; -1: none yet */
+    int64_t frame;           /* next frame */
+    double frame_t;          /* of the last frame; -1: none yet */
+    mps_frames *peak_frames; /* about the highest peaks; NULL: none */
+    peaks peaks;
     int pictures;       /* taken so far */
     double *picture_at; /* [s]; NAN: before this program went on with the run */
     mps_picture_config picture;
     progress progress;
     job_totals totals;
-    int64_t checkpoint;  /* next checkpoint */
-    double checkpoint_t; /* of the last; 0: none */
-    double *start;       /* row of t = 0, until it is written after the first step */
-    double *row;         /* scratch, as long as a row of probes.csv or trace.csv */
-    double step_end;     /* wall clock when the last step's outputs were done */
-    int messages;        /* of the library, shown so far */
+    int64_t checkpoint;      /* number of the next checkpoint by simulated time */
+    double checkpoint_t;     /* of the last; 0: none */
+    double checkpoint_clock; /* wall clock at which one is due [s] */
+    double fluid_at_start;   /* particles of fluid when a run that goes on began; NAN: not known */
+    bool fitted;          /* the steps are fitted to the end: no checkpoint is written any more */
+    double *start;        /* row of t = 0, until it is written after the first step */
+    double *row;          /* scratch, as long as a row of probes.csv or trace.csv */
+    double step_end;      /* wall clock when the last step's outputs were done */
+    double lock_clock;    /* wall clock at which the lock was renewed */
+    double summary_clock; /* wall clock of the last summary.json of an unfinished run; 0: none */
+    int messages;         /* of the library, shown so far */
     bool output_failed;
     bool ran;
     volatile sig_atomic_t stop;
@@ -207,16 +217,20 @@ void mps__trace_step(mps_job *job, double t, double dt);
 
 #define RESUME_ANEW "start anew with --overwrite, or in another folder with --out"
 
-/* Go on from the checkpoint. All ranks make this call. @return false: it failed on this rank */
+/* Go on from the checkpoint; without one the run begins again, and config.resume is 0. All ranks make this call.
+ * @return false: it failed on this rank */
 bool mps__resume_read(mps_job *job);
-/* Begin anew: remove an earlier run. */
-bool mps__resume_forget(mps_job *job);
+/* How a user continues the run, in the words of the program: of 'mps', or of a driver; a folder behind it, "" of a driver. */
+const char *mps__resume_words(const mps_job *job);
+const char *mps__resume_folder(const mps_job *job);
+/* Begin anew: remove an earlier run, but for the file `keep`, or NULL. */
+bool mps__resume_forget(mps_job *job, const char *keep);
 /* Check what the tables have, and cut them at the checkpoint. */
 bool mps__resume_tables(mps_job *job);
 /* A table_row_fn for steps.csv: take a step into the totals. */
 void mps__resume_add_step(void *job, const double *row);
-/* Is a checkpoint due at t? */
-bool mps__resume_due(mps_job *job, double t);
+/* Is a checkpoint due after this step? */
+bool mps__resume_due(mps_job *job, const mps_step_info *info);
 /* Write a checkpoint. All ranks make this call. */
 void mps__resume_save(mps_job *job);
 
@@ -229,8 +243,13 @@ void mps__colours_begin(mps_job *job);
 /* ---- drawing.c ---- */
 
 /* What rank 0 finds due after a step, and all ranks then do. */
-enum { DUE_SAMPLE = 1, DUE_FRAME = 2, DUE_PICTURE = 4, DUE_CHECKPOINT = 8 };
+enum { DUE_SAMPLE = 1, DUE_FRAME = 2, DUE_PICTURE = 4, DUE_CHECKPOINT = 8, DUE_PEAK = 16 };
 
+/* Frames about peaks: which columns are looked at. All ranks make this call before the tables
+ * are opened. */
+void mps__peaks_begin(mps_job *job);
+/* DUE_PEAK, after a sample. All ranks make this call. */
+int mps__peaks_due(mps_job *job);
 void mps__frames_begin(mps_job *job);
 /* DUE_FRAME and DUE_PICTURE. */
 int mps__drawing_due(const mps_job *job, double t);
@@ -247,7 +266,7 @@ void mps__drawing_end(mps_job *job, mps_status status);
 const table *mps__job_failed_table(const mps_job *job);
 /* All that comes after the last step. @param wall_s,cpu_s  times up to it [s] @return exit code */
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
-/* summary.json. @return false: it could not be written, job->error says why */
+/* summary.json; before totals.status is set, that of a run that is unfinished. @return false: it could not be written, job->error says why */
 bool mps__summary_save(mps_job *job);
 /* report.html, if it is wanted. @return false: likewise */
 bool mps__page_save(mps_job *job);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, and Ctrl-C. */
 #include "run.h"
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,10 +13,15 @@ enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
 /* ---- signals ---- */
 
 /* Handlers have no argument: this is the one job of the process that catches signals. */
-static volatile sig_atomic_t interrupted, hung_up;
+static volatile sig_atomic_t interrupted, repeated;
 
-enum { SIGNALS = 4, SPACING_TEXT = 160 };
-static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1};
+enum { SIGNALS = 6, ONCE = 2, SPACING_TEXT = 160 };
+/* The first ONCE of them end the program when they come again; terminals that close, queues and limits of the processor time send the others
+ * more than once. */
+static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
+
+/* [s] */
+static const double SUMMARY_INTERVAL = 10, LOCK_INTERVAL = 20;
 
 /* What the program had for each signal. */
 typedef struct handlers {
@@ -27,36 +31,32 @@ typedef struct handlers {
 
 static void on_interrupt(int signal)
 {
-    if (signal == SIGHUP) hung_up = 1;
+    if (signal != SIGINT && signal != SIGTERM) repeated = signal;
     interrupted = 1;
 }
 
-/* The handler is there for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
+/* The handler is installed for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
 static void catch_signals(const mps_job *job, handlers *h)
 {
     *h = (handlers){{false}, {{.sa_flags = 0}}};
-    interrupted = hung_up = 0;
+    interrupted = repeated = 0;
     if (!job->config.signals) return;
     for (int k = 0; k < SIGNALS; k++) {
         struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-        const bool hangup = CAUGHT[k] == SIGHUP;
         sigemptyset(&action.sa_mask);
-        if (CAUGHT[k] == SIGUSR1 && mps__job_ranks(job) == 1) continue; /* mpirun passes it on */
         sigaction(CAUGHT[k], NULL, &h->before[k]);
-        /* a terminal that closes may say so several times; nohup ignores it */
-        if (hangup) action.sa_flags = 0;
-        if (hangup && h->before[k].sa_handler == SIG_IGN) continue;
+        if (k >= ONCE) action.sa_flags = 0;
+        if (CAUGHT[k] == SIGHUP && h->before[k].sa_handler == SIG_IGN) continue; /* by nohup */
         h->set[k] = sigaction(CAUGHT[k], &action, NULL) == 0;
     }
 }
 
-/* After a SIGHUP that stopped the run the program has to unlock the folder and to return its code: the next one must not end it before. */
+/* After a signal that is sent more than once the program has to unlock the folder and to return its code: the next one must not end it before. */
 static void release_signals(const handlers *h)
 {
     const struct sigaction ignore = {.sa_handler = SIG_IGN};
     for (int k = 0; k < SIGNALS; k++)
-        if (h->set[k])
-            sigaction(CAUGHT[k], CAUGHT[k] == SIGHUP && hung_up ? &ignore : &h->before[k], NULL);
+        if (h->set[k]) sigaction(CAUGHT[k], CAUGHT[k] == repeated ? &ignore : &h->before[k], NULL);
 }
 
 /* ---- steps ---- */
@@ -89,7 +89,21 @@ static int take_step(mps_job *job, const mps_step_info *info)
     const bool sample = job->totals.steps == 1 ||
                         mps__table_wants(&job->probes, info->t, 2 * info->dt);
     return (sample ? DUE_SAMPLE : 0) | mps__drawing_due(job, info->t) |
-           (mps__resume_due(job, info->t) ? DUE_CHECKPOINT : 0);
+           (mps__resume_due(job, info) ? DUE_CHECKPOINT : 0);
+}
+
+/* What pages and statistics of a run that is not finished are made from, also where the process is killed. */
+static void save_unfinished(mps_job *job)
+{
+    mps__table_flush(&job->probes);
+    mps__table_flush(&job->momentum);
+    mps__table_flush(&job->steps);
+    if (job->config.trace) mps__table_flush(&job->trace_rows);
+    const double now = mps__progress_clock();
+    if (job->summary_clock > 0 && now - job->summary_clock < SUMMARY_INTERVAL) return;
+    job->summary_clock = now;
+    job->totals.wall_s = now - job->progress.start;
+    if (!mps__summary_save(job)) job->output_failed = true;
 }
 
 static void show_progress(mps_job *job, const mps_step_info *info)
@@ -97,12 +111,13 @@ static void show_progress(mps_job *job, const mps_step_info *info)
     char text[256];
     if (mps__progress_step(&job->progress, info, text, sizeof text)) {
         if (!job->config.quiet) mps__job_show(job, MPS_JOB_PROGRESS, text);
-        mps__table_flush(&job->probes);
-        mps__table_flush(&job->momentum);
-        mps__table_flush(&job->steps);
-        if (job->config.trace) mps__table_flush(&job->trace_rows);
+        save_unfinished(job);
     }
     if (mps__job_failed_table(job)) job->output_failed = true;
+    const double now = mps__progress_clock();
+    if (now - job->lock_clock < LOCK_INTERVAL) return;
+    job->lock_clock = now;
+    mps__folder_renew(&job->place);
 }
 
 /* What all ranks do now. */
@@ -122,9 +137,12 @@ static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
     mps_job *job = user;
     (void)sim;
     const double begin = mps__progress_clock();
-    const int due = mps__job_told(job, mps__job_first(job) ? take_step(job, info) : 0);
+    int due = mps__job_told(job, mps__job_first(job) ? take_step(job, info) : 0);
     if (job->config.trace) mps__trace_step(job, info->t, info->dt);
-    if (due & DUE_SAMPLE) mps__job_sample(job, info->t);
+    if (due & DUE_SAMPLE) {
+        mps__job_sample(job, info->t);
+        due |= mps__peaks_due(job);
+    }
     mps__drawing_do(job, info->t, due);
     if (due & DUE_CHECKPOINT) mps__resume_save(job);
     if (mps__job_first(job)) show_progress(job, info);
@@ -150,6 +168,7 @@ static bool open_job(mps_job *job)
     if (!job->ran) {
         mps__colours_begin(job);
         mps__job_boxes(job);
+        mps__peaks_begin(job);
         mps__job_device(job);
     }
     if (job->ran)
@@ -159,6 +178,8 @@ static bool open_job(mps_job *job)
     job->ran = true;
     if (!mps__job_agree(job)) return false; /* where another rank cannot read it, all end */
     job->totals.fluid = mps_particles_count(job->sim, MPS_FLUID);
+    if (job->config.resume && job->fluid_at_start > 0)
+        job->totals.fluid = (int64_t)job->fluid_at_start;
     job->totals.wall = mps_particles_count(job->sim, MPS_WALL);
     job->totals.dummy = mps_particles_count(job->sim, MPS_DUMMY);
     if (mps__job_first(job)) mps__job_open_tables(job);
@@ -202,7 +223,8 @@ static void begin(mps_job *job)
     mps__progress_from(&job->progress, s->t, s->steps);
     mps__job_first_rows(job);
     mps__frames_begin(job);
-    if (c->resume) mps__drawing_skip(job, s->t); /* taken before, maybe with another --t-end */
+    if (c->resume) mps__drawing_skip(job, s->t); /* taken before, maybe with another t_end */
+    if (mps__job_first(job)) save_unfinished(job);
 }
 
 /* The failure that all ranks end with: rather that of the rank that failed first than that there was one. */
@@ -227,8 +249,8 @@ static int32_t step(mps_job *job)
     const double wall = mps__progress_clock(), cpu = cpu_clock();
     mps_status status = MPS_W_STOPPED;
     handlers before;
-    begin(job);
     catch_signals(job, &before);
+    begin(job);
     job->step_end = mps__progress_clock();
     job->output_failed = mps__job_most(job, job->output_failed) > 0;
     if (!job->output_failed)
@@ -245,22 +267,11 @@ static int32_t step(mps_job *job)
 int32_t mps_job_run(mps_job *job, mps_sim *sim)
 {
     if (!job || !sim) return MPS_EXIT_USAGE;
-    const locale_t plain = newlocale(LC_NUMERIC_MASK, "C", (locale_t)0); /* "1.5" in all files */
-    const locale_t before = plain ? uselocale(plain) : (locale_t)0;
-    int32_t code;
     job->sim = sim;
     job->code = 0;
     job->error[0] = '\0';
     mps_sim_shape(sim, &job->dim, &job->dp);
-    if (open_job(job)) {
-        code = step(job);
-    } else {
-        if (job->tells && job->error[0]) mps__job_tell(job, "%s", job->error);
-        code = job->code;
-    }
-    if (plain) {
-        uselocale(before);
-        freelocale(plain);
-    }
-    return code;
+    if (open_job(job)) return step(job);
+    if (job->tells && job->error[0]) mps__job_tell(job, "%s", job->error);
+    return job->code;
 }

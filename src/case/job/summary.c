@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures, inputs, references, phases. */
+#include "plain.h"
 #include "run.h"
 #include <errno.h>
 #include <math.h>
@@ -12,14 +13,11 @@
 
 static void json_string(FILE *out, const char *text)
 {
+    char character[8];
     fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\')
-            fprintf(out, "\\%c", *text);
-        else if ((unsigned char)*text < 0x20)
-            fprintf(out, "\\u%04x", (unsigned)*text);
-        else
-            fputc(*text, out);
+    while (*text) {
+        text += mps__json_character(text, character);
+        fputs(character, out);
     }
     fputc('"', out);
 }
@@ -74,6 +72,7 @@ static void summary_times(FILE *out, const mps_job *job)
 {
     const job_totals *s = &job->totals;
     json_number(out, "t_end", s->t);
+    json_number(out, "until", job->config.t_end);
     json_number(out, "t_resumed", s->t_before);
     json_number(out, "dt_mean", per_step(s->t, s->steps));
     json_number(out, "wall_s", s->wall_s);
@@ -164,6 +163,43 @@ static void summary_inputs(FILE *out, const mps_job *job)
         fputs(", \"value\": ", out);
         json_string(out, job->input[k].value);
         fputc('}', out);
+    }
+    fputs("\n  ]", out);
+}
+
+/* One plug-in, with the names of what it registers. */
+static void summary_plugin(FILE *out, const mps_plugin_file *plugin)
+{
+    static const char *const kind[] = {"model", "solver", "preconditioner", "load", "motion"};
+    mps_plugin_info info;
+    mps_plugin_item item;
+    mps_plugin_info_init(&info, sizeof info);
+    mps_plugin_item_init(&item, sizeof item);
+    mps_plugin_info_get(plugin, &info);
+    fputs("{\"name\": ", out);
+    json_string(out, info.name);
+    fputs(", \"version\": ", out);
+    json_string(out, info.version);
+    fputs(", \"file\": ", out);
+    json_string(out, info.path);
+    fprintf(out, ", \"sha256\": \"%s\", \"items\": [", info.sha256);
+    for (int32_t i = 0; mps_plugin_item_get(plugin, i, &item) == MPS_OK; i++) {
+        fprintf(out, "%s{\"kind\": \"%s\", \"name\": ", i ? ", " : "", kind[item.kind]);
+        json_string(out, item.name);
+        fputs(", \"help\": ", out);
+        json_string(out, item.help);
+        fputc('}', out);
+    }
+    fputs("]}", out);
+}
+
+static void summary_plugins(FILE *out, const mps_job *job)
+{
+    if (job->plugins == 0) return;
+    fputs(",\n  \"plugins\": [", out);
+    for (int k = 0; k < job->plugins; k++) {
+        fputs(k ? ",\n    " : "\n    ", out);
+        summary_plugin(out, job->plugin[k]);
     }
     fputs("\n  ]", out);
 }
@@ -266,6 +302,18 @@ static void summary_spacing(FILE *out, const mps_job *job)
     fputc(']', out);
 }
 
+/* Names of all models that take part in a step, those of plug-ins too. */
+static void summary_models(FILE *out, const mps_job *job)
+{
+    const char *name;
+    fputs(",\n  \"models\": [", out);
+    for (int32_t k = 0; (name = mps_model_name(job->sim, k)) != NULL; k++) {
+        fputs(k ? ", " : "", out);
+        json_string(out, name);
+    }
+    fputc(']', out);
+}
+
 static void summary_case(FILE *out, const mps_job *job)
 {
     fputs("{\n  \"case\": ", out);
@@ -273,6 +321,7 @@ static void summary_case(FILE *out, const mps_job *job)
     json_text(out, "title", job->config.title);
     if (job->config.command) json_text(out, "command", job->config.command);
     json_text(out, "model", job->config.model ? job->config.model : "");
+    summary_models(out, job);
     summary_spacing(out, job);
     json_number(out, "gravity", job->config.gravity);
     fprintf(out, ",\n  \"tank_frame\": %s", job->config.tank_frame ? "true" : "false");
@@ -290,8 +339,8 @@ static void summary_write(FILE *out, const mps_job *job)
     json_number(out, "max_speed", job->totals.max_speed);
     summary_average(out, job);
     for (int i = 0; i < job->figures; i++)
-        json_number(out, job->figure[i].name, job->figure[i].measured);
-    json_text(out, "status", job->totals.status);
+        json_number(out, job->figure[i].name, job->totals.status ? job->figure[i].measured : NAN);
+    json_text(out, "status", job->totals.status ? job->totals.status : "unfinished");
     json_text(out, "error", job->error);
     json_text(out, "version", mps_version(NULL, NULL, NULL));
     summary_machine(out);
@@ -302,6 +351,7 @@ static void summary_write(FILE *out, const mps_job *job)
     summary_columns(out, job);
     if (job->figures > 0) summary_figures(out, job);
     summary_inputs(out, job);
+    summary_plugins(out, job);
     summary_references(out, job);
     summary_phases(out, job);
     summary_outlines(out, job);
@@ -309,14 +359,18 @@ static void summary_write(FILE *out, const mps_job *job)
     fputs("\n}\n", out);
 }
 
+/* Written beside its place and renamed: where the process is killed or the disk is full, the one before it stays. */
 bool mps__summary_save(mps_job *job)
 {
-    char path[FOLDER_PATH + 32];
+    char path[FOLDER_PATH + 32], temporary[FOLDER_PATH + 40];
     snprintf(path, sizeof path, "%s/summary.json", job->place.path);
-    FILE *out = fopen(path, "w");
+    snprintf(temporary, sizeof temporary, "%s.tmp", path);
+    FILE *out = fopen(temporary, "w");
     if (out) summary_write(out, job);
-    bool failed = !out || ferror(out);
+    bool failed = !out || ferror(out) || fflush(out) != 0 || fsync(fileno(out)) != 0;
     if (out && fclose(out) != 0) failed = true;
-    if (failed) mps__job_tell(job, "%s: %s", path, strerror(errno));
-    return !failed;
+    if (!failed && rename(temporary, path) == 0) return true;
+    mps__job_tell(job, "%s: %s", path, strerror(errno));
+    if (out) unlink(temporary);
+    return false;
 }

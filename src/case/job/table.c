@@ -66,6 +66,7 @@ void mps__table_sample(table *t, const double *row)
             t->row[i] = f < 1 ? t->before[i] + f * (row[i] - t->before[i]) : row[i];
         t->row[0] = time;
         mps__table_append(t, t->row);
+        if (t->each) t->each(t->user, t->row);
         t->next++;
     }
     memcpy(t->before, row, (size_t)t->columns * sizeof *row);
@@ -87,7 +88,7 @@ static bool table_parse(const char *line, int columns, double *row)
 }
 
 /* Take rows as long as they are whole and not later than `time`; t->end is behind the last of them. */
-static bool table_read(table *t, double time, table_row_fn each, void *user)
+static bool table_read(table *t, double time)
 {
     char *line = NULL;
     size_t size = 0;
@@ -96,7 +97,7 @@ static bool table_read(table *t, double time, table_row_fn each, void *user)
         if (t->row[0] > time + 1e-9 * t->interval) break;
         good = t->interval == 0 || t->row[0] == table_time(t);
         if (!good) break;
-        if (each) each(user, t->row);
+        if (t->each) t->each(t->user, t->row);
         t->next++;
         t->end = ftell(t->file);
     }
@@ -115,13 +116,13 @@ static bool table_same_header(table *t, const char *header)
     return same;
 }
 
-bool mps__table_resume(table *t, const char *header, double time, table_row_fn each, void *user)
+bool mps__table_resume(table *t, const char *header, double time)
 {
     t->file = fopen(t->path, "r+");
     if (!t->file) return table_refuse(t, strerror(errno));
     if (!table_same_header(t, header)) return table_refuse(t, "has not the columns of this run");
-    if (!table_read(t, time, each, user))
-        return table_refuse(t, "has rows at other times; --probe-dt must be what it was");
+    if (!table_read(t, time))
+        return table_refuse(t, "has rows at other times; their rate must be what it was");
     if (t->interval > 0 && mps__table_wants(t, time, 0))
         return table_refuse(t, "ends before the checkpoint");
     return true;

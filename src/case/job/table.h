@@ -9,13 +9,18 @@
 
 enum { TABLE_PATH = 640 };
 
+/* What is done with a row. */
+typedef void (*table_row_fn)(void *user, const double *row);
+
 typedef struct table {
     int columns; /* the first is the time */
     FILE *file;
     char path[TABLE_PATH], why[TABLE_PATH + 160]; /* why: it could not be opened or cut */
-    double interval; /* rows at k * interval; 0: whatever is appended */
-    int64_t next;    /* k of the next row */
-    long end;        /* where a file that goes on is cut */
+    double interval;   /* rows at k * interval; 0: whatever is appended */
+    table_row_fn each; /* NULL, or called for each row that is sampled or read back */
+    void *user;        /* of each() */
+    int64_t next;      /* k of the next row */
+    long end;          /* where a file that goes on is cut */
     bool has_before;
     double *before; /* [columns] last sample, to interpolate from */
     double *row;    /* [columns] scratch */
@@ -23,18 +28,14 @@ typedef struct table {
     int error;      /* errno of the first failure */
 } table;
 
-/* What is done with each row of a file that is there. */
-typedef void (*table_row_fn)(void *user, const double *row);
-
 /* Room for a table in <folder>/<name>, whose file mps__table_begin() or mps__table_resume() opens. @return false: `why` says why */
 bool mps__table_create(table *t, const char *folder, const char *name, int columns,
                        double interval);
 /* Open the file and write the header. @return false: `why` says why */
 bool mps__table_begin(table *t, const char *header);
 /* Open the file that is there and read its rows up to this time, as if they had just been written. Nothing is changed before mps__table_cut().
- * @param each  NULL, or called for each of them
  * @return false: `why` says why: another header, other times of rows, or rows are missing */
-bool mps__table_resume(table *t, const char *header, double time, table_row_fn each, void *user);
+bool mps__table_resume(table *t, const char *header, double time);
 /* Drop the later rows. @return false: `why` says why */
 bool mps__table_cut(table *t);
 /* Write a row as it is. */

@@ -47,11 +47,12 @@ static void keep_row(void *user, const double *row)
 static bool open_file(mps_job *job, const char *header)
 {
     table *t = &job->trace_rows;
-    const bool done = mps__table_create(t, job->place.path, "trace.csv", TRACE_OWN + job->columns,
-                                        0) &&
-                      (job->config.resume
-                           ? mps__table_resume(t, header, job->totals.t_before, keep_row, job)
-                           : mps__table_begin(t, header));
+    bool done = mps__table_create(t, job->place.path, "trace.csv", TRACE_OWN + job->columns, 0);
+    t->each = keep_row;
+    t->user = job;
+    if (done)
+        done = job->config.resume ? mps__table_resume(t, header, job->totals.t_before)
+                                  : mps__table_begin(t, header);
     if (done) return true;
     if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
     return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);

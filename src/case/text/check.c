@@ -15,11 +15,13 @@ static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
     static const char *const is[] = {"a text", "a list", "a map"};
     char path[PATH_ROOM];
     const mps__key *e = node->entry;
-    const bool empty = node->kind == TREE_TEXT && !*node->text;
+    const char *given = is[node->kind];
+    if (node->kind == TREE_TEXT && !*node->text) given = "nothing";
+    if (node->kind == TREE_LIST && node->count == 0) given = "an empty list";
+    if (node->kind == TREE_MAP && node->count == 0) given = "an empty map";
     mps__case_say(c, node, false, "%s: %s is wanted, not %s%s%s%s",
-                  mps__tree_path(node, path, sizeof path), wanted,
-                  empty ? "nothing" : is[node->kind], *e->example ? ", e.g. '" : "", e->example,
-                  *e->example ? "'" : "");
+                  mps__tree_path(node, path, sizeof path), wanted, given,
+                  *e->example ? ", e.g. '" : "", e->example, *e->example ? "'" : "");
 }
 
 /* ---- names and keys --------------------------------------------------------------------------- */
@@ -52,7 +54,8 @@ static bool check_name(mps_case *c, const tree_node *node)
     if (good == length && length > 0 && length <= NAME_MOST) return true;
     mps__case_say_key(
         c, node,
-        "name '%.60s': a letter is wanted, then letters, digits, _ and -, %d in all at most",
+        "name '%.60s': a letter a to z, A to Z is wanted, then such letters, digits, _ and -, %d "
+        "in all at most",
         node->key, NAME_MOST);
     return false;
 }
@@ -120,6 +123,26 @@ static void check_needs(mps_case *c, const tree_node *map, const mps__key_group 
     }
 }
 
+/* A word with commas without quotes in a map in braces: "{axes: x forward, y port, z up}" has
+ * the keys "y port" and "z up".
+ * @return the last of its parts, after a message; NULL: it is none */
+static tree_node *split_word(mps_case *c, tree_node *node, const mps__key *entry)
+{
+    char word[80], path[PATH_ROOM];
+    if (!entry || !entry->words || node->kind != TREE_TEXT) return NULL;
+    size_t used = (size_t)snprintf(word, sizeof word, "%.60s", node->text);
+    for (tree_node *n = node->next; n && n->kind == TREE_TEXT && !*n->text; n = n->next) {
+        used += (size_t)snprintf(word + used, sizeof word - used, ", %.60s", n->key);
+        if (used >= sizeof word) return NULL;
+        if (!mps__words_have(entry->words, word, used)) continue;
+        node->entry = n->entry = entry;
+        mps__case_say(c, node, false, "%s: a text with commas needs quotes in braces, %s: '%s'",
+                      mps__tree_path(node, path, sizeof path), node->key, word);
+        return n;
+    }
+    return NULL;
+}
+
 static void check_map(mps_case *c, tree_node *map, const mps__key *entry)
 {
     map->entry = entry;
@@ -127,7 +150,13 @@ static void check_map(mps_case *c, tree_node *map, const mps__key *entry)
         refuse_kind(c, map, "a map of keys");
         return;
     }
-    for (tree_node *n = map->first; n; n = n->next) check_child(c, n, entry);
+    for (tree_node *n = map->first; n; n = n->next) {
+        tree_node *last = split_word(c, n, mps__key_below(entry, n->key));
+        if (last)
+            n = last;
+        else
+            check_child(c, n, entry);
+    }
     check_required(c, map, entry);
     for (int32_t k = 0; k < mps__key_groups_count; k++)
         if (mps__group_is_of(&mps__key_groups[k], entry)) check_group(c, map, &mps__key_groups[k]);
@@ -142,7 +171,7 @@ static void check_maps(mps_case *c, tree_node *node, const mps__key *entry)
         return;
     }
     for (tree_node *n = node->first; n; n = n->next) check_map(c, n, entry);
-    if (node->count == 0) refuse_kind(c, node, "a map of keys, or a list of such");
+    if (node->count == 0 && !entry->words) refuse_kind(c, node, "a map of keys, or a list of such");
 }
 
 static void check_fills(mps_case *c, tree_node *list, const mps__key *entry)
@@ -212,6 +241,7 @@ static void forget_reads(tree_node *node)
 void mps__check(mps_case *c, tree_node *root)
 {
     check_node(c, root, &mps__keys[0]);
+    mps__plugins_load(c, root);
     mps__check_models(c, root);
     mps__check_sweep(c, root);
     forget_reads(root);

@@ -85,49 +85,98 @@ static void check_model_list(mps_case *c, const mps_sim *sim, const tree_node *l
 
 /* ---- settings --------------------------------------------------------------------------------- */
 
-/* Find slot.key among the settings of all models of the slot; else the nearest. */
-static bool find_setting(const mps_sim *sim, const char *name, mps_setting_info *found,
-                         char *nearest)
+/* The nearest of the names of settings so far. */
+typedef struct search {
+    const char *name;
+    int32_t best;
+    char nearest[NAME_ROOM];
+} search;
+
+/* Whether slot.key is the setting that is looked for. */
+static bool is_setting(search *s, const char *slot, size_t length, const char *key)
 {
-    mps_model_info model;
-    int32_t distance, best = 2 * NAME_ROOM;
-    nearest[0] = '\0';
-    mps_model_info_init(&model, sizeof model);
-    for (int32_t m = 0; mps_model_info_get(sim, m, &model) == MPS_OK; m++) {
-        for (int32_t k = 0; k < model.settings; k++) {
-            char known[NAME_ROOM];
-            mps_setting_info_init(found, sizeof *found);
-            if (mps_setting_info_get(sim, model.name, k, found) != MPS_OK) break;
-            snprintf(known, sizeof known, "%.*s.%s", (int)strcspn(model.name, "."), model.name,
-                     found->key);
-            if (strcmp(known, name) == 0) return true;
-            if (!mps__words_near(name, known, &distance) || distance >= best) continue;
-            best = distance;
-            memcpy(nearest, known, sizeof known);
-        }
-    }
+    char known[NAME_ROOM];
+    int32_t distance;
+    snprintf(known, sizeof known, "%.*s.%s", (int)length, slot, key);
+    if (strcmp(known, s->name) == 0) return true;
+    if (!mps__words_near(s->name, known, &distance) || distance >= s->best) return false;
+    s->best = distance;
+    memcpy(s->nearest, known, sizeof known);
     return false;
 }
 
-static uint64_t kinds_of(const char *unit)
+/* Among the settings of all models of a slot, then of loads and motions of plug-ins; else the nearest. */
+static bool find_setting(const mps_case *c, const mps_sim *sim, search *s, mps_setting_info *found)
+{
+    const mps_drive_ops *drive;
+    mps_model_info model;
+    mps_model_info_init(&model, sizeof model);
+    for (int32_t m = 0; mps_model_info_get(sim, m, &model) == MPS_OK; m++) {
+        for (int32_t k = 0; k < model.settings; k++) {
+            mps_setting_info_init(found, sizeof *found);
+            if (mps_setting_info_get(sim, model.name, k, found) != MPS_OK) break;
+            if (is_setting(s, model.name, strcspn(model.name, "."), found->key)) return true;
+        }
+    }
+    for (int32_t m = 0; (drive = mps__plugins_drive_at(c, m)) != NULL; m++)
+        for (int32_t k = 0; k < drive->setting_count; k++) {
+            const mps_setting *known = &drive->settings[k];
+            *found = (mps_setting_info){.struct_size = sizeof *found,
+                                        .type = known->type,
+                                        .key = known->key,
+                                        .unit = known->unit,
+                                        .min = known->min,
+                                        .max = known->max};
+            if (is_setting(s, drive->name, strlen(drive->name), known->key)) return true;
+        }
+    return false;
+}
+
+/* The unit of a setting may be one that no key of a case has: then it is taken as it is written. @return false: a message */
+static bool take_unit(mps_case *c, tree_node *node, const char *unit)
 {
     const mps__unit *u = mps__unit_find(unit, strlen(unit));
-    return u ? u->kinds : UNIT_NONE | UNIT_SHARE;
+    node->in_dp = u && u->scale == SCALE_DP;
+    node->unit = u && !node->in_dp ? mps__unit_value(u) : 1;
+    node->units = u ? u->kinds : UNIT_NONE | UNIT_SHARE;
+    if (u || node->kind != TREE_TEXT || strcmp(unit, "-") == 0) return true;
+    const size_t length = strlen(node->text), tail = strlen(unit);
+    if (length > tail && strcmp(node->text + length - tail, unit) == 0)
+        node->number = mps__case_copy(c, node->text, length - tail);
+    double value;
+    char path[PATH_ROOM];
+    mps__numbers n = {.text = node->number ? node->number : node->text,
+                      .kinds = node->units,
+                      .most = 1,
+                      .out = &value};
+    if (mps__numbers_read(&n)) return true;
+    mps__case_say(c, node, false, "%s: '%.60s': a number in '%s' is wanted, e.g. '1 %s'",
+                  mps__tree_path(node, path, sizeof path), node->text, unit, unit);
+    return false;
+}
+
+/* Of a flag. */
+static void take_flag(tree_node *node)
+{
+    if (node->kind != TREE_TEXT) return;
+    if (mps__words_have("yes|true", node->text, strlen(node->text))) node->number = "1";
+    if (mps__words_have("no|false", node->text, strlen(node->text))) node->number = "0";
 }
 
 static void check_setting(mps_case *c, const mps_sim *sim, tree_node *node)
 {
     mps_setting_info info;
-    char nearest[NAME_ROOM], path[PATH_ROOM];
+    search s = {.name = node->key, .best = 2 * NAME_ROOM};
+    char path[PATH_ROOM];
     double value;
-    if (!find_setting(sim, node->key, &info, nearest)) {
+    if (!find_setting(c, sim, &s, &info)) {
         mps__case_say_key(c, node, "no setting '%.60s'%s%s%s", node->key,
-                          *nearest ? "; did you mean '" : "; settings are slot.key", nearest,
-                          *nearest ? "'?" : "");
+                          *s.nearest ? "; did you mean '" : "; settings are slot.key", s.nearest,
+                          *s.nearest ? "'?" : "");
         return;
     }
-    node->units = kinds_of(info.unit);
-    node->in_dp = strcmp(info.unit, "dp") == 0;
+    if (!take_unit(c, node, info.unit)) return;
+    if (info.type == MPS_TYPE_FLAG) take_flag(node);
     if (!mps__node_setting(c, node, &value) || isnan(value)) return;
     if (value >= info.min && value <= info.max &&
         (info.type == MPS_TYPE_REAL || value == floor(value)))
@@ -142,14 +191,63 @@ bool mps__node_setting(mps_case *c, const tree_node *node, double *value)
 {
     const read_scale scale = c->scale;
     double length = 0;
-    if (!node->in_dp) return mps__node_numbers(c, node, 1, value, NULL) == 1;
-    c->scale.dp = 1; /* "3 dp" is 3 without rounding */
-    bool done = mps__node_numbers(c, node, 1, value, NULL) == 1;
+    tree_node number = *node; /* without a unit that no key has */
+    if (node->number) number.text = node->number;
+    bool done = true;
+    if (node->in_dp) c->scale.dp = 1; /* "3 dp" is 3 without rounding */
+    done = mps__node_numbers(c, &number, 1, value, NULL) == 1;
+    if (done && !node->in_dp && node->unit > 0) *value /= node->unit;
+    if (!node->in_dp) return done;
     c->scale.dp = NAN;
     done = done && mps__node_numbers(c, node, 1, &length, NULL) == 1;
     c->scale = scale;
     if (done && !isnan(length)) *value = length / scale.dp;
     return done;
+}
+
+/* ---- plug-ins --------------------------------------------------------------------------------- */
+
+/* A load or motion of a plug-in by its name, below `map` of the case. */
+static void check_drive(mps_case *c, const tree_node *node, int32_t kind)
+{
+    const char *what = kind == MPS_PLUGIN_LOAD ? "load" : "motion";
+    char nearest[NAME_ROOM], path[PATH_ROOM];
+    if (!node || node->kind != TREE_TEXT || !*node->text) return;
+    if (mps__plugins_drive(c, node->text, kind, nearest, sizeof nearest)) return;
+    mps__case_say(c, node, false, "%s: no plug-in has a %s '%.60s'%s%s%s",
+                  mps__tree_path(node, path, sizeof path), what, node->text,
+                  *nearest     ? "; did you mean '"
+                  : c->plugins ? ""
+                               : "; 'plugins' names its library",
+                  nearest, *nearest ? "'?" : "");
+}
+
+static bool has_text(const tree_node *node, const char *text)
+{
+    if (!node) return false;
+    if (node->kind == TREE_TEXT) return strcmp(node->text, text) == 0;
+    for (const tree_node *n = node->kind == TREE_LIST ? node->first : NULL; n; n = n->next)
+        if (n->kind == TREE_TEXT && strcmp(n->text, text) == 0) return true;
+    return false;
+}
+
+/* A plug-in of which the case uses nothing is mostly a line that is missing. */
+static void warn_of_unused(mps_case *c, const tree_node *const *used, int count)
+{
+    static const char *const key[] = {"use: [", "run: {solver: ", "run: {preconditioner: ",
+                                      "body: {load: {plugin: ", "motion: {plugin: "},
+                             *const end[] = {"]", "}", "}", "}}", "}"};
+    for (int32_t k = 0; k < c->plugins; k++) {
+        mps_plugin_item item;
+        mps_plugin_item_init(&item, sizeof item);
+        bool any = false;
+        for (int32_t i = 0; mps_plugin_item_get(c->plugin[k].file, i, &item) == MPS_OK; i++)
+            for (int n = 0; n < count; n++) any = any || has_text(used[n], item.name);
+        if (any || mps_plugin_item_get(c->plugin[k].file, 0, &item) != MPS_OK) continue;
+        mps__case_say(c, c->plugin[k].at, true,
+                      "plugins: nothing of this plug-in is used; e.g. '%s%s%s' uses it",
+                      key[item.kind], item.name, end[item.kind]);
+    }
 }
 
 /* ---- all -------------------------------------------------------------------------------------- */
@@ -160,29 +258,51 @@ static const tree_node *below(const tree_node *root, const char *map, const char
     return node && node->kind == TREE_MAP ? mps__tree_find(node, key) : NULL;
 }
 
+/* All that names something of libmps or of a plug-in. */
+enum { MODEL, USE, REMOVE, SETTINGS, SOLVER, PRECONDITIONER, KERNEL, LOAD, MOTION, NAMES };
+
+static void find_names(const tree_node *root, const tree_node *names[NAMES])
+{
+    const tree_node *load = below(root, "body", "load");
+    names[MODEL] = mps__tree_find(root, "model");
+    names[USE] = mps__tree_find(root, "use");
+    names[REMOVE] = mps__tree_find(root, "remove");
+    names[SETTINGS] = mps__tree_find(root, "settings");
+    names[SOLVER] = below(root, "run", "solver");
+    names[PRECONDITIONER] = below(root, "run", "preconditioner");
+    names[KERNEL] = below(root, "kernel", "name");
+    names[LOAD] = load && load->kind == TREE_MAP ? mps__tree_find(load, "plugin") : NULL;
+    names[MOTION] = below(root, "motion", "plugin");
+}
+
 void mps__check_models(mps_case *c, tree_node *root)
 {
-    const tree_node *model = mps__tree_find(root, "model"), *use = mps__tree_find(root, "use"),
-                    *gone = mps__tree_find(root, "remove"), *solver = below(root, "run", "solver"),
-                    *preconditioner = below(root, "run", "preconditioner"),
-                    *kernel = below(root, "kernel", "name");
-    tree_node *settings = mps__tree_find(root, "settings");
+    const tree_node *names[NAMES];
     mps_sim *sim = NULL;
     mps_config config;
-    if (!model && !use && !gone && !solver && !preconditioner && !kernel && !settings) return;
+    bool any = c->plugins > 0;
+    find_names(root, names);
+    for (int k = 0; k < NAMES; k++) any = any || names[k];
+    if (!any || mps__plugins_missing(c, root)) return;
     mps_config_init(&config, sizeof config);
     config.dp = 1;
     if (mps_sim_create(&config, &sim) != MPS_OK) {
         c->no_memory = true;
         return;
     }
-    check_name(c, sim, model, "preset of models", mps_preset_info_get);
-    check_name(c, sim, solver, "pressure solver", mps_solver_info_get);
-    check_name(c, sim, preconditioner, "preconditioner", mps_preconditioner_info_get);
-    check_name(c, sim, kernel, "kernel", mps_kernel_info_get);
-    check_model_list(c, sim, use, false);
-    check_model_list(c, sim, gone, true);
-    if (settings && settings->kind == TREE_MAP)
-        for (tree_node *n = settings->first; n; n = n->next) check_setting(c, sim, n);
+    mps__plugins_register(c, sim);
+    check_name(c, sim, names[MODEL], "preset of models", mps_preset_info_get);
+    check_name(c, sim, names[SOLVER], "pressure solver", mps_solver_info_get);
+    check_name(c, sim, names[PRECONDITIONER], "preconditioner", mps_preconditioner_info_get);
+    check_name(c, sim, names[KERNEL], "kernel", mps_kernel_info_get);
+    check_model_list(c, sim, names[USE], false);
+    check_model_list(c, sim, names[REMOVE], true);
+    check_drive(c, names[LOAD], MPS_PLUGIN_LOAD);
+    check_drive(c, names[MOTION], MPS_PLUGIN_MOTION);
+    if (names[SETTINGS] && names[SETTINGS]->kind == TREE_MAP)
+        for (tree_node *n = names[SETTINGS]->first; n; n = n->next) check_setting(c, sim, n);
+    const tree_node *used[] = {names[USE], names[SOLVER], names[PRECONDITIONER], names[LOAD],
+                               names[MOTION]};
+    warn_of_unused(c, used, sizeof used / sizeof *used);
     mps_sim_destroy(sim);
 }

@@ -73,8 +73,13 @@ static bool in_range(mps_case *c, const tree_node *node, const mps__numbers *n)
             return false;
         }
         if (isnan(n->out[k]) || mps__range_holds(e->range, n->out[k], n->relative)) continue;
-        mps__case_say(c, node, false, "%s: '%.80s' is out of its range: %s",
-                      mps__tree_path(node, path, sizeof path), n->text, e->range);
+        if (strcmp(e->path, "mps") == 0) /* the range is that of the versions */
+            mps__case_say(c, node, false,
+                          "mps: version %.20s is out of its range: this program reads version %s",
+                          n->text, e->example);
+        else
+            mps__case_say(c, node, false, "%s: '%.80s' is out of its range: %s",
+                          mps__tree_path(node, path, sizeof path), n->text, e->range);
         return false;
     }
     return true;

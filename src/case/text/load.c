@@ -27,7 +27,7 @@ int32_t mps__source_add(mps_case *c, const mps__source *source)
 static const char page_begin[] = "<script type=\"text/yaml\" id=\"case\">",
                   page_end[] = "</script>";
 
-/* A page writes "</" as "<\/" and "<!--" as "<\!--", so that the case does not end its script. */
+/* A page writes "<" as "<\", so that no text of the case ends its script or begins another one. */
 char *mps__page_case(char *page, size_t *size, int32_t *line)
 {
     char *begin = strstr(page, page_begin);
@@ -39,7 +39,7 @@ char *mps__page_case(char *page, size_t *size, int32_t *line)
     char *to = begin;
     for (const char *from = begin; from < end; from++) {
         *to++ = *from;
-        if (*from == '<' && from[1] == '\\' && (from[2] == '/' || from[2] == '!')) from++;
+        if (*from == '<' && from[1] == '\\') from++;
     }
     *to = '\0';
     *size = (size_t)(to - begin);
@@ -117,6 +117,7 @@ typedef struct chain {
     dev_t device;
     ino_t number;
     int32_t length;
+    bool untrusted;
 } chain;
 
 static tree_node *load(mps_case *c, const char *path, const tree_node *from, const chain *before);
@@ -170,7 +171,7 @@ static tree_node *load_source(mps_case *c, int32_t source, const char *path, con
     struct stat s;
     const bool there = stat(path, &s) == 0; /* a text from memory is no file */
     const chain files = {before, there ? s.st_dev : 0, there ? s.st_ino : 0,
-                         before ? before->length + 1 : 1};
+                         before ? before->length + 1 : 1, c->source[source].untrusted};
     tree_node *root = mps__parse(c, source);
     if (!root) return NULL;
     if (root->kind != TREE_MAP) {
@@ -189,10 +190,11 @@ static tree_node *load_source(mps_case *c, int32_t source, const char *path, con
     return root;
 }
 
-static int32_t add_file(mps_case *c, const char *path, char *text, size_t size)
+static int32_t add_file(mps_case *c, const char *path, char *text, size_t size, bool untrusted)
 {
     mps__source s = {.name = mps__case_copy(c, path, strlen(path)),
-                     .folder = mps__folder_of(c, path)};
+                     .folder = mps__folder_of(c, path),
+                     .untrusted = untrusted || is_page(path)};
     if (is_page(path)) {
         char *inner = mps__page_case(text, &size, &s.line_offset);
         s.text = inner ? mps__case_copy(c, inner, size) : NULL;
@@ -212,7 +214,7 @@ static tree_node *load(mps_case *c, const char *path, const tree_node *from, con
     size_t size = 0;
     char *text = read_file(c, path, from, &size);
     if (!text) return NULL;
-    const int32_t source = add_file(c, path, text, size);
+    const int32_t source = add_file(c, path, text, size, before && before->untrusted);
     free(text);
     return source < 0 ? NULL : load_source(c, source, path, before);
 }
@@ -241,14 +243,14 @@ static void settle_sweep(tree_node *root, int32_t count, const char *const *sets
     if (sweep->count == 0) mps__tree_remove(root, sweep);
 }
 
-static mps_status finish(mps_case *c, tree_node *root, int32_t count, const char *const *sets,
-                         mps_case **out)
+static mps_status finish(mps_case *c, tree_node *root, const mps_case_options *o, mps_case **out)
 {
     if (root && !c->no_memory) {
-        settle_sweep(root, count, sets);
-        for (int32_t k = 0; k < count; k++) mps__set_text(c, root, sets[k]);
+        for (int32_t k = 0; k < o->set_count; k++) mps__set_text(c, root, o->set[k]);
+        settle_sweep(root, o->set_count, o->set); /* that of `sets` too: runs of it get both */
+        mps__plugins_put(c, root, o->plugin_count, o->plugin);
         c->root = root;
-        mps__check(c, root);
+        if (!c->no_memory) mps__check(c, root);
     }
     if (!mps__case_failed(c) && root) c->text = mps__tree_write(c, root);
     if (c->no_memory) {
@@ -259,51 +261,70 @@ static mps_status finish(mps_case *c, tree_node *root, int32_t count, const char
     return c->no_file ? MPS_E_IO : c->errors > 0 ? MPS_E_ARG : MPS_OK;
 }
 
-static mps_status begin(int32_t count, const char *const *sets, mps_case **out)
+static bool all_given(int32_t count, const char *const *texts)
 {
-    if (count < 0 || (count > 0 && !sets)) return MPS_E_ARG;
+    if (count < 0 || (count > 0 && !texts)) return false;
     for (int32_t k = 0; k < count; k++)
-        if (!sets[k]) return MPS_E_ARG;
+        if (!texts[k]) return false;
+    return true;
+}
+
+static bool check_options(const mps_case_options *o)
+{
+    return o->struct_size == sizeof *o && o->load >= MPS_CASE_PLUGINS_NONE &&
+           o->load <= MPS_CASE_PLUGINS_ALL && all_given(o->set_count, o->set) &&
+           all_given(o->plugin_count, o->plugin);
+}
+
+/* The tree of a text from memory. */
+static tree_node *load_text(mps_case *c, const char *name, const char *text, size_t size)
+{
+    if (size > TREE_BYTES) {
+        refuse_file(c, name, NULL, "it is larger than 1 MB; a case file is a text");
+        c->no_file = false;
+        return NULL;
+    }
+    const mps__source s = {.name = mps__case_copy(c, name, strlen(name)),
+                           .text = mps__case_copy(c, text, size),
+                           .folder = mps__folder_of(c, name),
+                           .size = size,
+                           .untrusted = true};
+    const int32_t source = s.name && s.text && s.folder ? mps__source_add(c, &s) : -1;
+    return source < 0 ? NULL : load_source(c, source, name, NULL);
+}
+
+mps_status mps_case_options_init(mps_case_options *options, size_t size)
+{
+    if (!options || size != sizeof *options) return MPS_E_ARG;
+    *options = (mps_case_options){.struct_size = sizeof *options};
+    return MPS_OK;
+}
+
+mps_status mps_case_open(const char *path, const mps_case_options *options, mps_case **out)
+{
+    const mps_case_options none = {.struct_size = sizeof none}, *o = options ? options : &none;
+    if (out) *out = NULL;
+    if (!path || !out || !check_options(o)) return MPS_E_ARG;
     mps_case *c = calloc(1, sizeof *c);
     if (!c) return MPS_E_NOMEM;
     c->scale = (read_scale){NAN, NAN, NAN};
-    *out = c;
-    return MPS_OK;
+    c->load = o->load;
+    return finish(c, o->text ? load_text(c, path, o->text, o->size) : load(c, path, NULL, NULL), o,
+                  out);
 }
 
 mps_status mps_case_read(const char *path, int32_t count, const char *const *sets, mps_case **out)
 {
-    mps_case *c = NULL;
-    const mps_status status = path ? begin(count, sets, &c) : MPS_E_ARG;
-    if (out) *out = NULL;
-    if (status != MPS_OK || !out) {
-        mps_case_destroy(c);
-        return status != MPS_OK ? status : MPS_E_ARG;
-    }
-    return finish(c, load(c, path, NULL, NULL), count, sets, out);
+    const mps_case_options o = {.struct_size = sizeof o, .set_count = count, .set = sets};
+    return mps_case_open(path, &o, out);
 }
 
 mps_status mps_case_read_text(const char *text, size_t size, const char *name, int32_t count,
                               const char *const *sets, mps_case **out)
 {
-    mps_case *c = NULL;
-    const mps_status status = text && name ? begin(count, sets, &c) : MPS_E_ARG;
+    const mps_case_options o = {
+        .struct_size = sizeof o, .set_count = count, .set = sets, .text = text, .size = size};
+    if (text) return mps_case_open(name, &o, out);
     if (out) *out = NULL;
-    if (status != MPS_OK || !out) {
-        mps_case_destroy(c);
-        return status != MPS_OK ? status : MPS_E_ARG;
-    }
-    tree_node *root = NULL;
-    if (size > TREE_BYTES) {
-        refuse_file(c, name, NULL, "it is larger than 1 MB; a case file is a text");
-        c->no_file = false;
-    } else {
-        const mps__source s = {.name = mps__case_copy(c, name, strlen(name)),
-                               .text = mps__case_copy(c, text, size),
-                               .folder = mps__folder_of(c, name),
-                               .size = size};
-        const int32_t source = s.name && s.text && s.folder ? mps__source_add(c, &s) : -1;
-        if (source >= 0) root = load_source(c, source, name, NULL);
-    }
-    return finish(c, root, count, sets, out);
+    return MPS_E_ARG;
 }

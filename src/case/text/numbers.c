@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Numbers with units. */
 #include "units.h"
-#include <locale.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -57,19 +56,11 @@ static bool find_number(const char *start, number_text *n)
     return n->mantissa < DIGITS;
 }
 
-/* Its value times 10^tens, rounded once. The host may have set a locale with another decimal point. */
+/* Its value times 10^tens, rounded once. */
 static double number_value(const number_text *n, int32_t tens)
 {
-    const char *point = localeconv()->decimal_point;
     char text[DIGITS + 40];
-    size_t used = 0;
-    for (size_t i = 0; i < n->mantissa; i++) {
-        if (n->start[i] == '.')
-            for (const char *p = point; *p && used < DIGITS + 10; p++) text[used++] = *p;
-        else
-            text[used++] = n->start[i];
-    }
-    snprintf(text + used, sizeof text - used, "e%d", (int)(n->exponent + tens));
+    snprintf(text, sizeof text, "%.*se%d", (int)n->mantissa, n->start, (int)(n->exponent + tens));
     return strtod(text, NULL);
 }
 

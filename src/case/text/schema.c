@@ -35,7 +35,9 @@ static void kind_of(const mps__key *key, char *kind, size_t size)
     const char *word = strncmp(name, "an ", 3) == 0  ? name + 3
                        : strncmp(name, "a ", 2) == 0 ? name + 2
                                                      : name;
-    if (key->shape != SHAPE_NUMBERS)
+    if (key->shape == SHAPE_MAPS && key->words)
+        snprintf(kind, size, "text, map, or list of these");
+    else if (key->shape != SHAPE_NUMBERS)
         snprintf(kind, size, "%s", shape_name(key->shape));
     else if (key->few == COUNT_DIM)
         snprintf(kind, size, "%s, 2 or 3", word);
@@ -55,7 +57,7 @@ mps_status mps_case_key_get(int32_t index, mps_case_key *key)
     *key = (mps_case_key){.struct_size = sizeof *key,
                           .required = k->required,
                           .path = k->path,
-                          .range = k->words ? k->words : k->range,
+                          .range = k->words && k->shape != SHAPE_MAPS ? k->words : k->range,
                           .otherwise = k->otherwise,
                           .example = k->example,
                           .help = k->help};
@@ -270,7 +272,9 @@ static void put_kind(mps__out *o, const mps__key *key, bool strict)
         if (key->words) mps__out_put(o, "}]");
         break;
     case SHAPE_MAPS:
-        mps__out_put(o, "\"anyOf\":[{");
+        mps__out_put(o, "\"anyOf\":[");
+        if (key->words) mps__out_put(o, "{%s},{\"type\":\"array\",\"items\":{%s}},", text, text);
+        mps__out_put(o, "{");
         put_map(o, key, strict);
         mps__out_put(o, "},{\"type\":\"array\",\"minItems\":1,\"items\":{");
         put_map(o, key, strict);

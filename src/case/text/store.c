@@ -39,6 +39,7 @@ void *mps__case_take(mps_case *c, size_t size)
 void mps_case_destroy(mps_case *c)
 {
     if (!c) return;
+    mps__plugins_close(c);
     for (mps__block_of_case *b = c->blocks, *before; b; b = before) {
         before = b->before;
         free(b);
@@ -68,7 +69,12 @@ char *mps__case_print(mps_case *c, const char *format, ...)
 
 bool mps__case_failed(const mps_case *c)
 {
-    return c->no_memory || c->errors > 0;
+    return c->no_memory || c->errors > c->known_errors;
+}
+
+void mps__case_go_on(mps_case *c, bool others)
+{
+    c->known_errors = others ? c->errors : 0;
 }
 
 /* ---- messages ------------------------------------------------------------------------------- */

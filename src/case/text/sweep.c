@@ -101,6 +101,12 @@ static bool reads_as_numbers(mps_case *c, const tree_node *node, const mps__key 
     return false;
 }
 
+/* Not plug-ins: a sweep gives its values to the program, which takes them for those of its user. */
+static bool is_plugin(const char *path)
+{
+    return strncmp(path, "plugins", 7) == 0;
+}
+
 /* Check each value as if it stood at its path. */
 static void check_values(mps_case *c, const tree_node *node, const mps__key *key, int32_t count)
 {
@@ -131,7 +137,11 @@ void mps__check_sweep(mps_case *c, tree_node *root)
     for (const tree_node *n = sweep->first; n; n = n->next) {
         const mps__key *key = mps__key_at(n->key);
         const int32_t count = count_values(n);
-        if (!can_sweep(key))
+        if (is_plugin(n->key))
+            mps__case_say_key(c, n,
+                              "sweep: plug-ins cannot be varied; their settings can, e.g. "
+                              "'settings.screen.darcy'");
+        else if (!can_sweep(key))
             mps__case_say_key(c, n, "sweep: '%.80s' is no path of a value", n->key);
         else if (count == 0 || count > PATH_VALUES)
             mps__case_say(

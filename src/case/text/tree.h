@@ -25,6 +25,8 @@ struct tree_node {
     const mps__key *entry; /* of the table, once the tree is checked */
     uint64_t units;        /* that its numbers may have; those of the entry but for settings */
     bool in_dp;            /* a setting that libmps counts in spacings */
+    double unit;           /* of a setting, in SI */
+    const char *number;    /* of a setting: its text without the unit; NULL: all of it */
     bool read;             /* asked for by the code that builds the case */
 };
 
@@ -39,11 +41,18 @@ typedef struct mps__source {
     const char *text;   /* [size + 1] */
     const char *folder; /* that names of files in it are relative to */
     size_t size;
-    bool option; /* a text of `sets`: its messages have no line */
+    bool option;    /* a text of `sets`: its messages have no line */
+    bool untrusted; /* a page, a text from memory, or a file that one of these names */
     int32_t line_offset;
 } mps__source;
 
-enum { CASE_SOURCES = 1024 };
+enum { CASE_SOURCES = 1024, CASE_PLUGINS = 16 };
+
+/* A plug-in of a case: `at` names it. */
+typedef struct mps__case_plugin {
+    struct mps_plugin_file *file;
+    const tree_node *at;
+} mps__case_plugin;
 
 typedef struct mps__block_of_case mps__block_of_case;
 
@@ -52,12 +61,16 @@ struct mps_case {
     bool no_memory;             /* an allocation failed: the case is of no use */
     bool no_file;               /* a file could not be read */
     int32_t sources, messages, errors, nodes;
+    int32_t known_errors; /* of other parts of the case, while a further part is read for its own */
     mps__source source[CASE_SOURCES];
     mps_case_message message[MPS_CASE_MESSAGES]; /* in the order of their places */
     int32_t message_source[MPS_CASE_MESSAGES];
     tree_node *root;
     const char *text; /* merged */
     read_scale scale;
+    mps_case_cost cost;    /* of the last check; struct_size 0: none */
+    int32_t plugins, load; /* that are loaded; MPS_CASE_PLUGINS_... */
+    mps__case_plugin plugin[CASE_PLUGINS];
 };
 
 /* ---- memory: NULL, and c->no_memory is set, where there is none */
@@ -77,6 +90,9 @@ void mps__case_say_key(mps_case *c, const tree_node *at, const char *format, ...
 void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *format, va_list list);
 /* An error at a place. */
 void mps__case_fail(mps_case *c, mps__place at, const char *format, ...);
+/* Read a further part of a case that has errors, for the errors of this part:
+ * mps__case_failed() is about those alone. Off again: about all. */
+void mps__case_go_on(mps_case *c, bool others);
 /* There are errors, or no memory. */
 bool mps__case_failed(const mps_case *c);
 
@@ -126,6 +142,23 @@ int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, doub
                           uint64_t *found);
 /* The number of a setting, in the unit of libmps. @return false: an error, with its message */
 bool mps__node_setting(mps_case *c, const tree_node *node, double *value);
+
+/* ---- plug-ins */
+/* Bring `plugins` into one form, a list of maps with `file`, and add the files of a program. */
+void mps__plugins_put(mps_case *c, tree_node *root, int32_t count, const char *const *files);
+/* Load the plug-ins of a case that was checked, with messages. */
+void mps__plugins_load(mps_case *c, tree_node *root);
+/* Register all of them on a simulation. @return false: a message says why */
+bool mps__plugins_register(mps_case *c, mps_sim *sim);
+/* Whether the case names plug-ins that are not loaded, so that names of models are not known. */
+bool mps__plugins_missing(const mps_case *c, const tree_node *root);
+/* The table of a load or motion by its name, and its kind, MPS_PLUGIN_...; NULL: there is none, `near` has one that is
+ * spelled alike, or "". */
+const struct mps_drive_ops *mps__plugins_drive(const mps_case *c, const char *name, int32_t kind,
+                                               char *near, size_t size);
+/* Load or motion number `index` of all plug-ins; NULL behind the last. */
+const struct mps_drive_ops *mps__plugins_drive_at(const mps_case *c, int32_t index);
+void mps__plugins_close(mps_case *c);
 
 /* The tree as YAML, in memory of the case; NULL: no memory. */
 const char *mps__tree_write(mps_case *c, const tree_node *root);

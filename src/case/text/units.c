@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The table of units, and what may be asked of it. */
 #include "units.h"
+#include <mps/case.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -54,6 +55,15 @@ static const char *const kind_names[UNIT_KINDS] = {
 /* clang-format on */
 
 enum { UNITS = sizeof units / sizeof units[0] };
+
+double mps_unit_factor(const char *from, const char *to)
+{
+    if (!from || !to) return NAN;
+    if (strcmp(from, to) == 0) return 1;
+    const mps__unit *a = mps__unit_find(from, strlen(from)), *b = mps__unit_find(to, strlen(to));
+    if (!a || !b || !(a->kinds & b->kinds) || a->scale != b->scale) return NAN;
+    return mps__unit_value(a) / mps__unit_value(b);
+}
 
 const mps__unit *mps__unit_get(int32_t index)
 {

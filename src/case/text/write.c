@@ -39,20 +39,51 @@ static bool is_plain(const char *text)
     return strncmp(text, "...", 3) != 0;
 }
 
+/* Characters beyond ASCII that YAML reads as line breaks, as a mark, or refuses; "" where it is
+ * none. */
+static const char *escape_of(const char *text, size_t *length)
+{
+    static const char *const known[][2] = {{"\xe2\x80\xa8", "\\L"},
+                                           {"\xe2\x80\xa9", "\\P"},
+                                           {"\xef\xbb\xbf", "\\uFEFF"},
+                                           {"\xef\xbf\xbe", "\\uFFFE"},
+                                           {"\xef\xbf\xbf", "\\uFFFF"}};
+    for (size_t k = 0; k < sizeof known / sizeof *known; k++) {
+        *length = strlen(known[k][0]);
+        if (strncmp(text, known[k][0], *length) == 0) return known[k][1];
+    }
+    return "";
+}
+
 static void put_quoted(output *o, const char *text)
 {
     put_text(o, "\"");
-    for (; *text; text++) {
+    while (*text) {
         char code[8];
-        if (*text == '"' || *text == '\\') {
+        size_t length = 1;
+        const unsigned char c = (unsigned char)*text, next = (unsigned char)text[1];
+        const char *escape = escape_of(text, &length);
+        if (*escape) {
+            put_text(o, escape);
+            text += length;
+            continue;
+        }
+        if (c == 0xC2 && next < 0xA0) { /* U+0080 to U+009F; U+0085 is a line break */
+            snprintf(code, sizeof code, "\\x%02X", (unsigned)next);
+            put_text(o, code);
+            text += 2;
+            continue;
+        }
+        if (c == '"' || c == '\\') {
             put(o, "\\", 1);
             put(o, text, 1);
-        } else if ((unsigned char)*text < 0x20 || *text == 0x7F) {
-            snprintf(code, sizeof code, "\\x%02x", (unsigned)(unsigned char)*text);
+        } else if (c < 0x20 || c == 0x7F) {
+            snprintf(code, sizeof code, "\\x%02x", (unsigned)c);
             put_text(o, code);
         } else {
             put(o, text, 1);
         }
+        text++;
     }
     put_text(o, "\"");
 }

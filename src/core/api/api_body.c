@@ -81,6 +81,9 @@ static mps_status check_body(const mps__world *w, const mps_body *b)
     MPS__TRY(check_array(w, "stiffness", b->stiffness, 36));
     MPS__TRY(check_array(w, "damping", b->damping, 36));
     MPS__TRY(check_array(w, "equilibrium", b->equilibrium, 6));
+    for (int k = 0; k < 6; k++)
+        MPS__CHECK(w->context, b->friction[k] >= 0 && isfinite(b->friction[k]),
+                   "mps_body.friction[%d] is %g: must be finite and >= 0", k, b->friction[k]);
     MPS__CHECK(w->context, b->gravity == 0 || b->gravity == 1,
                "mps_body.gravity is %d: must be 0 or 1", (int)b->gravity);
     return check_inertia(w, b->inertia);
@@ -103,7 +106,7 @@ static void begin(mps__world *w)
 
 mps_status mps_body_set(mps_sim *sim, const mps_body *body)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     mps_body own = body_default;
     MPS__TRY(mps__sim_motion_free(sim));
@@ -172,6 +175,8 @@ mps_status mps_body_get(mps_sim *sim, mps_body_report *report)
     memcpy(out.mass, k->mass, sizeof out.mass);
     for (int d = 0; d < 6 && w->state.dt_before > 0; d++)
         out.late[d] = k->late[d] / w->state.dt_before;
+    memcpy(out.friction, k->friction, sizeof out.friction);
+    out.rubbed = k->rubbed;
     out.damped = k->damped;
     out.external_work = k->external_work;
     out.liquid_work = k->liquid_work;

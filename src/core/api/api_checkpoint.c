@@ -3,6 +3,7 @@
 #include "checkpoint.h"
 #include "gather.h"
 #include <mps/output.h>
+#include <string.h>
 
 static const char setup_part[] = "set-up";
 
@@ -50,6 +51,20 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
     const mps_status status = r->rank == 0 ? save_all(sim, path) : MPS_OK;
     mps__gather_end(&sim->world);
     return mps__ranks_agree(r, status);
+}
+
+mps_status mps_checkpoint_note_add(mps_sim *sim, const char *text)
+{
+    MPS__STEPS(sim);
+    mps__context *c = &sim->context;
+    MPS__CHECK(c, text && text[0], "the line of a checkpoint is NULL or empty");
+    MPS__CHECK(c, strlen(text) < MPS__NOTE_SIZE && !strpbrk(text, "\n\r"),
+               "a line of a checkpoint has at most %d characters and no end of line",
+               MPS__NOTE_SIZE - 1);
+    MPS__CHECK(c, sim->notes < MPS__NOTES, "a checkpoint has at most %d lines of its caller",
+               MPS__NOTES);
+    mps__name_copy(sim->note[sim->notes++], MPS__NOTE_SIZE, text);
+    return MPS_OK;
 }
 
 static mps_status check_setup(mps_sim *sim, const mps__archive *a)

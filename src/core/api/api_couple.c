@@ -13,7 +13,7 @@ mps_status mps_load_init(mps_load *load, size_t size)
 
 mps_status mps_load_watch(mps_sim *sim, int32_t what)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     MPS__CHECK(w->context, what >= MPS_LOAD_NONE && what <= MPS_LOAD_MASS,
                "mps_load_watch(): what is %d: must be MPS_LOAD_NONE (0), MPS_LOAD_FORCE (1) or "

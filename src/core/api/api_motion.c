@@ -43,13 +43,16 @@ static bool same(const double *a, const double *b, int count)
 }
 
 /* Particles keep their place in the tank's frame. Velocities stay: a step sees the jump of the walls'. */
-static void carry_particles(mps_sim *sim, const mps__motion *old)
+static mps_status carry_particles(mps_sim *sim, const mps__motion *old)
 {
-    const mps__motion *m = &sim->world.motion;
-    mps__particles *s = &sim->world.particles;
+    mps__world *w = &sim->world;
+    const mps__motion *m = &w->motion;
+    mps__particles *s = &w->particles;
     if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) &&
         same(old->centre, m->centre, 3))
-        return;
+        return MPS_OK;
+    MPS__TRY(mps__world_fetch_field(w, s->ref)); /* a model may move solids in the tank */
+    MPS__TRY(mps__world_write_field(w, s->x));
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)
@@ -59,7 +62,8 @@ static void carry_particles(mps_sim *sim, const mps__motion *old)
         mps__motion_point(m, &m->now, X, x, NULL, NULL);
     }
     /* the way from the old pose to the new one is no motion: the tank begins anew */
-    sim->world.state.dt_before = 0;
+    w->state.dt_before = 0;
+    return MPS_OK;
 }
 
 mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
@@ -75,7 +79,14 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
     const bool goes_on = (old.posed && next->posed) ||
                          (next->fn == mps__body_motion && w->state.step > 0);
     w->motion = *next;
-    carry_particles(sim, &old);
+    status = carry_particles(sim, &old);
+    if (status < 0) {
+        w->motion = old;
+        if (old.user != next->user) mps__motion_free(next);
+        return status;
+    }
+    /* the last step looked ahead with speeds relative to the tank */
+    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.changes = -1;
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
     if (!goes_on) w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
@@ -168,7 +179,7 @@ mps_status mps_motion_state_init(mps_motion_state *state, size_t size)
 
 mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t start)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     MPS__TRY(mps__sim_motion_free(sim));
     if (w->state.step > 0)
@@ -189,14 +200,18 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
     mps__motion old = w->motion;
     next.start = start;
     w->motion = next;
-    carry_particles(sim, &old);
+    const mps_status status = carry_particles(sim, &old);
+    if (status < 0) {
+        w->motion = old;
+        return status;
+    }
     w->state.start_pending = next.fn && start == MPS_START_WITH_TANK;
     return MPS_OK;
 }
 
 mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmonic *harmonics)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(&sim->context, count >= 1, "harmonics: count is %d, must be at least 1", (int)count);
     MPS__CHECK(&sim->context, harmonics, "harmonics is NULL");
@@ -210,7 +225,7 @@ mps_status mps_motion_harmonics_set(mps_sim *sim, int32_t count, const mps_harmo
 mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int32_t dofs,
                                 const int32_t *dof, const double *values)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__context *c = &sim->context;
     MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(c, rows >= 2 && rows <= INT32_MAX, "motion table: %lld rows, must be 2..%d",
@@ -234,7 +249,7 @@ mps_status mps_motion_table_set(mps_sim *sim, int64_t rows, const double *t, int
 
 mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__TRY(mps__sim_motion_free(sim));
     MPS__CHECK(&sim->context, fn,
                "the motion callback is NULL: use mps_motion_clear() for no motion");
@@ -243,7 +258,7 @@ mps_status mps_motion_callback_set(mps_sim *sim, mps_motion_fn fn, void *user)
 
 mps_status mps_motion_clear(mps_sim *sim)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__TRY(mps__sim_motion_free(sim));
     mps__motion next = sim->world.motion;
     next.hold = (mps_motion_state){.struct_size = sizeof next.hold};
@@ -259,7 +274,7 @@ mps_status mps_motion_clear(mps_sim *sim)
 
 mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_state *state)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     mps__posed way = {.begin = w->state.t, .end = t_end, .from = w->motion.now.state};
     mps__pose last;
@@ -292,6 +307,21 @@ mps_status mps_motion_state_get(const mps_sim *sim, mps_motion_state *state)
     if (!sim) return MPS_E_ARG;
     const mps_motion_state *now = &sim->world.motion.now.state;
     return mps__struct_out(mps__sim_context(sim), "mps_motion_state", state, now, sizeof *now);
+}
+
+mps_status mps_motion_state_at(mps_sim *sim, double t, mps_motion_state *state)
+{
+    MPS__READS(sim);
+    mps__world *w = &sim->world;
+    mps__pose pose;
+    MPS__TRY(mps__struct_check(w->context, "mps_motion_state", state));
+    MPS__CHECK(w->context, isfinite(t), "mps_motion_state_at(): t is %g s: must be finite", t);
+    if (mps__body_carries(w))
+        return mps__fail(w->context, MPS_E_STATE,
+                         "mps_motion_state_at(): a body carries the tank: its motion is not known "
+                         "in advance");
+    MPS__TRY(mps__motion_pose(&w->motion, t, &pose));
+    return mps__struct_out(w->context, "mps_motion_state", state, &pose.state, sizeof pose.state);
 }
 
 mps_status mps_motion_to_lab(const mps_sim *sim, const double *tank, double *lab, double *velocity)

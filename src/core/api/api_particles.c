@@ -48,12 +48,16 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
             MPS__CHECK(c, isfinite(arrays[a][k]),
                        "block.%s of particle %lld, axis %lld is %g: must be finite", names[a],
                        (long long)(k / dim), (long long)(k % dim), arrays[a][k]);
+    const mps__motion *m = &sim->world.motion;
+    const mps__carry carry = mps__motion_carry(m, &m->now);
     for (int64_t k = 0; b->velocity && b->kind == MPS_FLUID && k < b->count; k++) {
-        const double *u = b->velocity + k * dim, speed = sqrt(mps__dot(u, u, dim));
-        MPS__CHECK(c, speed <= sim->world.setup.speed_limit,
-                   "block.velocity of particle %lld is (%g, %g, %g) m/s: at most %g m/s, "
-                   "mps_config.speed_limit",
-                   (long long)k, u[0], u[1], dim == 3 ? u[2] : 0, sim->world.setup.speed_limit);
+        const double *u = b->velocity + k * dim,
+                     speed = sqrt(mps__relative2(dim, &carry, b->position + k * dim, u));
+        MPS__CHECK(
+            c, speed <= sim->world.setup.speed_limit,
+            "block.velocity of particle %lld is (%g, %g, %g) m/s: at most %g m/s relative to "
+            "the tank, mps_config.speed_limit",
+            (long long)k, u[0], u[1], dim == 3 ? u[2] : 0, sim->world.setup.speed_limit);
     }
     return MPS_OK;
 }
@@ -285,7 +289,7 @@ int64_t mps_particle_index(const mps_sim *sim, int64_t id)
 
 mps_status mps_field_add(mps_sim *sim, const char *name, int32_t components)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__TRY(not_leased(sim));
     MPS__CHECK(&sim->context, name && name[0] && strnlen(name, 32) < 32,
                "a field's name has 1..31 characters");
@@ -342,14 +346,15 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     MPS__CHECK(c, field, "the name of the field is NULL");
     MPS__TRY(mps__struct_check(c, "mps_lease", lease));
     MPS__CHECK(c, mode == MPS_READ || mode == MPS_WRITE, "mode is %d: MPS_READ or MPS_WRITE", mode);
-    if (mode == MPS_WRITE) MPS__CHANGES(sim);
+    if (mode == MPS_WRITE) MPS__SETS(sim);
     MPS__TRY(find_leasable(sim, field, &f));
     MPS__CHECK(c, mode == MPS_READ || !f->is_tag,
                "field '%s' cannot be written: lease it with MPS_READ", field);
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
         return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field,
                          f->writer ? "writing" : "reading");
-    MPS__TRY(mps__world_fetch_field(&sim->world, *f->data));
+    MPS__TRY(mode == MPS_WRITE ? mps__world_write_field(&sim->world, *f->data)
+                               : mps__world_fetch_field(&sim->world, *f->data));
     const mps_lease open = lease_of(&sim->world.particles, f, mode);
     MPS__TRY(mps__struct_out(c, "mps_lease", lease, &open, sizeof open));
     if (mode == MPS_WRITE)

@@ -26,7 +26,7 @@ mps_status mps_probe_init(mps_probe *probe, size_t size)
 
 mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps_probe p = probe_defaults;
     MPS__CHECK(&sim->context, id, "id is NULL");
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
@@ -37,7 +37,7 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
 
 mps_status mps_probe_remove(mps_sim *sim, int32_t id)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__probe *probe = NULL;
     MPS__TRY(find_probe(sim, id, &probe));
     mps__probe_remove(&sim->context, probe);
@@ -82,7 +82,10 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
     mps__probe *probe = NULL;
     MPS__CHECK(&sim->context, values, "values is NULL");
     MPS__TRY(find_probe(sim, id, &probe));
-    return mps__ranks_tell(&sim->world.ranks, mps__probe_read(&sim->world, probe, values));
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a kernel");
+    const mps_status status = mps__probe_read(&sim->world, probe, values);
+    sim->context.lock = before;
+    return mps__ranks_tell(&sim->world.ranks, status);
 }
 
 /* A probe that keeps samples; NULL: there is none, and the status says why. */
@@ -104,7 +107,10 @@ mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const doub
     mps_status status;
     mps__probe *probe = find_series(sim, id, &status);
     if (!probe) return status;
-    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__probe_take(&sim->world, probe)));
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a kernel");
+    status = mps__probe_take(&sim->world, probe);
+    sim->context.lock = before;
+    MPS__TRY(mps__ranks_tell(&sim->world.ranks, status));
     if (count) *count = probe->series.count;
     if (t) *t = probe->series.t;
     if (values) *values = probe->series.value;

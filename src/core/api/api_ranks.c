@@ -5,7 +5,7 @@
 
 mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     if (w->ranks.ops.name)
         return mps__fail(&sim->context, MPS_E_STATE, "the handle has engine of ranks '%s' already",

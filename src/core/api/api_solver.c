@@ -4,13 +4,13 @@
 
 mps_status mps_solver_use(mps_sim *sim, const char *solver, const char *preconditioner)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__solvers_use(&sim->world.solvers, solver, preconditioner);
 }
 
 mps_status mps_solver_limits_set(mps_sim *sim, const mps_solver_limits *limits)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__solvers_set_limits(&sim->world.solvers, limits);
 }
 
@@ -25,12 +25,12 @@ mps_status mps_solver_name(const mps_sim *sim, const char **solver, const char *
 
 mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__solvers_register(&sim->world.solvers, ops);
 }
 
 mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__solvers_register_preconditioner(&sim->world.solvers, ops);
 }

@@ -39,7 +39,7 @@ static mps_status check_limits(mps__context *c, const mps_time_control *t)
 
 mps_status mps_time_control_set(mps_sim *sim, const mps_time_control *control)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__context *c = &sim->context;
     mps_time_control t = control_default;
     MPS__TRY(mps__struct_in(c, "mps_time_control", &t, sizeof t, control));
@@ -83,15 +83,21 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     return status;
 }
 
+/* Times that differ by this are the same: programs add up lengths of steps, which rounds. */
+static double rounding_of(double t)
+{
+    return 1e-12 * fmax(1.0, fabs(t));
+}
+
 mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *user)
 {
     MPS__STEPS(sim);
     mps__world *w = &sim->world;
-    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->state.t,
-               "t_end is %g s: must be finite and not before the present time %g s", t_end,
+    const double small = rounding_of(t_end);
+    MPS__CHECK(&sim->context, isfinite(t_end) && t_end >= w->state.t - small,
+               "t_end is %.17g s: must be finite and not before the present time %.17g s", t_end,
                w->state.t);
     mps_status result = MPS_OK;
-    const double small = 1e-12 * fmax(1.0, fabs(t_end));
     while (t_end - w->state.t > small) {
         w->ending = true;
         const mps_status status = mps_step(sim, t_end - w->state.t, NULL);
@@ -107,6 +113,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
         MPS__TRY(mps__ranks_status(&w->ranks));
         if (stop) return MPS_W_STOPPED;
     }
+    w->state.t = t_end; /* also without a step: else a loop up to this time never ends */
     return result;
 }
 
@@ -126,15 +133,19 @@ mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *stencil)
                "which is %d: must be MPS_NEAR (0) or MPS_FAR (1)", which);
     const mps__field *x = mps__particles_field(&sim->world.particles, "position");
     if (x->writer) return mps__fail(&sim->context, MPS_E_BUSY, "positions are leased for writing");
-    MPS__TRY(mps__particles_leases(&sim->world.particles) ? mps__world_neighbours_kept(&sim->world)
-                                                          : mps__world_neighbours(&sim->world));
-    MPS__TRY(mps__world_stencil_all(&sim->world, which, &view));
+    const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a kernel");
+    mps_status status = mps__particles_leases(&sim->world.particles)
+                            ? mps__world_neighbours_kept(&sim->world)
+                            : mps__world_neighbours(&sim->world);
+    if (status == MPS_OK) status = mps__world_stencil_all(&sim->world, which, &view);
+    sim->context.lock = before;
+    MPS__TRY(status);
     return mps__struct_out(&sim->context, "mps_stencil", stencil, &view, sizeof view);
 }
 
 mps_status mps_kernel_use(mps_sim *sim, const mps_kernel *kernel)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__context *c = &sim->context;
     const mps__setup *setup = &sim->world.setup;
     mps_kernel k = {0};
@@ -142,7 +153,11 @@ mps_status mps_kernel_use(mps_sim *sim, const mps_kernel *kernel)
     MPS__TRY(mps__struct_in(c, "mps_kernel", &k, sizeof k, kernel));
     if (sim->world.state.step > 0)
         return mps__fail(c, MPS_E_STATE, "the kernel cannot change after the first step");
-    MPS__TRY(mps__kernel_lattice(c, &k, setup->dim, setup->dp, setup->re_near, &n0, NULL));
+    const mps__lock before = mps__lock_set(c, MPS__LOCKED, "a kernel");
+    const mps_status status = mps__kernel_lattice(c, &k, setup->dim, setup->dp, setup->re_near, &n0,
+                                                  NULL);
+    c->lock = before;
+    MPS__TRY(status);
     k.struct_size = sizeof k;
     sim->world.setup.kernel = k;
     return MPS_OK;

@@ -148,11 +148,15 @@ void mps_sim_destroy(mps_sim *sim)
 {
     if (!sim) return;
     if (sim->context.lock.level > MPS__UNLOCKED) {
-        mps__log(&sim->context, MPS_LOG_WARNING,
-                 "mps_sim_destroy() was called from %s, and does nothing there",
-                 sim->context.lock.what);
+        mps__fail(&sim->context, MPS_E_BUSY,
+                  "mps_sim_destroy() was called from %s, and does nothing there: call it when the "
+                  "call of the library that is in progress has returned",
+                  sim->context.lock.what);
+        mps__log(&sim->context, MPS_LOG_WARNING, "%s", sim->context.error);
         return;
     }
+    mps__lock_set(&sim->context, MPS__LOCKED,
+                  "mps_sim_destroy()"); /* plug-ins are destroyed, too */
     mps__context c = sim->context;
     mps__probes_free(&sim->context, &sim->probes);
     for (int32_t k = 0; k < sim->solids; k++) mps__distances_free(&sim->solid[k], &c);
@@ -184,7 +188,7 @@ mps_status mps_sim_time(const mps_sim *sim, double *t, int64_t *steps)
 
 mps_status mps_threads_set(mps_sim *sim, int32_t threads)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__CHECK(&sim->context, threads >= 1 && threads <= MPS__THREADS_MOST, "threads is %d: 1..%d",
                threads, MPS__THREADS_MOST);
     mps__pool_resize(&sim->world.pool, threads);
@@ -192,9 +196,24 @@ mps_status mps_threads_set(mps_sim *sim, int32_t threads)
     return MPS_OK;
 }
 
+/* Of the particles of a phase; the field is not touched where they have this density already. */
+static mps_status set_density(mps__world *w, int32_t phase, double density)
+{
+    mps__particles *s = &w->particles;
+    bool differs = false;
+    MPS__TRY(mps__world_fetch_field(w, s->rho));
+    for (int64_t i = 0; i < s->n; i++)
+        differs = differs || (s->phase[i] == phase && s->rho[i] != density);
+    if (!differs) return MPS_OK;
+    MPS__TRY(mps__world_write_field(w, s->rho));
+    for (int64_t i = 0; i < s->n; i++)
+        if (s->phase[i] == phase) s->rho[i] = density;
+    return MPS_OK;
+}
+
 mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *phase)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps_phase p = water;
     MPS__CHECK(&sim->context, index >= 0 && index < MPS__PHASES, "phase index is %d: 0..%d", index,
                MPS__PHASES - 1);
@@ -206,11 +225,10 @@ mps_status mps_phase_set(mps_sim *sim, int32_t index, const mps_phase *phase)
     mps__world *w = &sim->world;
     if (mps__particles_leases(&w->particles))
         return mps__fail(&sim->context, MPS_E_BUSY, "a lease is open");
+    MPS__TRY(set_density(w, index, p.density));
     w->setup.phase_defined[index] = true;
     w->setup.phase_density[index] = p.density;
     w->setup.phase_viscosity[index] = p.viscosity;
-    for (int64_t i = 0; i < w->particles.n; i++)
-        if (w->particles.phase[i] == index) w->particles.rho[i] = p.density;
     return MPS_OK;
 }
 
@@ -238,7 +256,7 @@ static mps_status check_pair(mps__context *c, const mps__world *w, int32_t a, in
 
 mps_status mps_tension_set(mps_sim *sim, int32_t a, int32_t b, double sigma)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     mps__world *w = &sim->world;
     MPS__TRY(check_pair(&sim->context, w, a, b));
     MPS__CHECK(&sim->context, sigma >= 0 && isfinite(sigma),
@@ -263,31 +281,31 @@ mps_status mps_tension_get(const mps_sim *sim, int32_t a, int32_t b, double *sig
 
 mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__models_register(&sim->world.models, ops);
 }
 
 mps_status mps_preset_use(mps_sim *sim, const char *name)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__models_preset(&sim->world.models, name);
 }
 
 mps_status mps_model_use(mps_sim *sim, const char *name)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__models_use(&sim->world.models, name);
 }
 
 mps_status mps_model_remove(mps_sim *sim, const char *slot)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     return mps__models_remove(&sim->world.models, slot);
 }
 
 mps_status mps_model_set(mps_sim *sim, const char *slot, const char *key, double value)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     const mps_setting *s = NULL;
     double *place = mps__models_value(&sim->world.models, slot, key, &s);
     if (!place) return MPS_E_NAME;

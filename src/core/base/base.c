@@ -98,15 +98,17 @@ mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what)
 
 void mps__log(mps__context *c, int level, const char *format, ...)
 {
-    if (!c->log) return;
+    if (!c->log || c->logs) return; /* what a log callback does is not logged: it would not end */
     char text[MPS__ERROR_SIZE];
     va_list list;
     va_start(list, format);
     vsnprintf(text, sizeof text, format, list);
     va_end(list);
+    c->logs = true;
     const mps__lock before = mps__lock_set(c, MPS__LOCKED, "a log callback");
     c->log(c->log_user, level, text);
     c->lock = before;
+    c->logs = false;
 }
 
 /* Levenshtein distance; names are short. */

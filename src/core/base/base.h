@@ -27,6 +27,7 @@ typedef struct mps__context {
     mps_log_fn log;
     void *log_user;
     mps__lock lock;
+    bool logs; /* a log callback runs */
     char error[MPS__ERROR_SIZE];
 } mps__context;
 

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A pool of threads. A loop is a round: the caller opens it, works on its parts and takes over those that no thread has begun, closes it, and waits
  * only for parts that others have begun. So a thread that gets no core costs nothing, and a round needs no thread at all to end. */
-#ifdef __linux__
+#ifndef _GNU_SOURCE /* the build sets it, in front of plain.h */
 #define _GNU_SOURCE /* sched_getcpu() */
 #endif
 #include "device.h"

@@ -25,8 +25,6 @@ typedef struct known_struct {
 #define V2(type, second) {#type, {offsetof(type, second), sizeof(type)}}
 /* clang-format on */
 static const known_struct structs[] = {
-    V1(mps_body),
-    V1(mps_body_report),
     V1(mps_channel_info),
     V1(mps_config),
     V1(mps_device_info),
@@ -65,6 +63,8 @@ static const known_struct structs[] = {
     V1(mps_verb_info),
     V1(mps_voids),
     V1(mps_voids_config),
+    V2(mps_body, friction),
+    V2(mps_body_report, friction),
     V2(mps_energy, friction),
     V2(mps_momentum, friction),
     V2(mps_step_info, pockets),

@@ -11,6 +11,9 @@
 /* Room for the uses of a verb as a text. */
 enum { MPS__USES_SIZE = 1024 };
 
+/* Lines of the caller in the set-up of checkpoints. */
+enum { MPS__NOTES = 16, MPS__NOTE_SIZE = 192 };
+
 struct mps_sim {
     mps__context context;
     mps__world world;
@@ -26,6 +29,8 @@ struct mps_sim {
     int64_t solid_capacity;
     mps__distances *solid;
     char uses[MPS__USES_SIZE]; /* of the verb that was told last */
+    int32_t notes;
+    char note[MPS__NOTES][MPS__NOTE_SIZE];
 };
 
 /* The handle's context is part of its private state: error text may change through a const handle. */
@@ -54,17 +59,21 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
                      call);
 }
 
-/* Begin a public function that takes steps, */
-#define MPS__STEPS(sim)                                          \
+/* Begin a public function that changes numbers of a simulation: settings, motions, models, probes.
+ * Fields stay where they are valid. What writes one field calls mps__world_write_field() besides,
+ * what reads one mps__world_fetch_field(). */
+#define MPS__SETS(sim)                                           \
     do {                                                         \
         if (!(sim)) return MPS_E_ARG;                            \
         MPS__TRY(mps__sim_free((sim), MPS__UNLOCKED, __func__)); \
         MPS__TRY(mps__sim_divided((sim), __func__));             \
     } while (0)
-/* one that may change any field of the particles, or one that reads more than single values of a simulation. */
+/* Begin a public function that takes steps, or replaces all fields. */
+#define MPS__STEPS(sim) MPS__SETS(sim)
+/* Begin a public function that adds or removes particles, or moves all fields to the host. */
 #define MPS__CHANGES(sim)                          \
     do {                                           \
-        MPS__STEPS(sim);                           \
+        MPS__SETS(sim);                            \
         MPS__TRY(mps__world_fetch(&(sim)->world)); \
         (sim)->world.particles.changes++;          \
     } while (0)

@@ -61,13 +61,23 @@ static mps_status check_pose_state(mps__context *c, const mps__arrived *a, const
 
 mps_status mps__check_body(mps__context *c, const mps__body_state *b)
 {
-    const double *const loads[] = {b->late, b->liquid, b->external, b->restoring, b->felt_late};
-    const double energies[] = {b->damped, b->external_work, b->liquid_work, b->start};
+    const double *const loads[] = {b->late,      b->liquid,    b->external,
+                                   b->restoring, b->felt_late, b->friction};
+    const double energies[] = {b->damped, b->external_work, b->liquid_work, b->start, b->rubbed};
     for (size_t k = 0; k < sizeof loads / sizeof loads[0]; k++)
         MPS__TRY(check_finite(c, "body", loads[k], 6));
     MPS__TRY(check_finite(c, "body", b->mass, 36));
-    MPS__TRY(check_finite(c, "body", energies, 4));
+    MPS__TRY(check_finite(c, "body", energies, 5));
     return check_finite(c, "body", b->origin, 3);
+}
+
+mps_status mps__check_load(mps__context *c, const mps__load *l)
+{
+    MPS__TRY(check_finite(c, "load", &l->dt, 1));
+    MPS__TRY(check_finite(c, "load", l->at, 3));
+    MPS__TRY(check_finite(c, "load", l->force, 6));
+    MPS__TRY(check_finite(c, "load", l->accel, 6));
+    return check_finite(c, "load", l->mass, 36);
 }
 
 /* A pose that was not `set` yet has no rotation. */

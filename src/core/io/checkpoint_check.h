@@ -24,6 +24,7 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
 mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
 /* What a body that carries the tank keeps. */
 mps_status mps__check_body(mps__context *c, const mps__body_state *b);
+mps_status mps__check_load(mps__context *c, const mps__load *l);
 /* What a model keeps for all particles. */
 mps_status mps__check_numbers(mps__context *c, const mps_model_ops *ops, const mps__numbers *s);
 /* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */

@@ -8,7 +8,7 @@
 
 enum { LINE = 256 };
 
-/* One line. Numbers have all their digits, and a point whatever the host program's locale says. */
+/* One line. Numbers have all their digits. */
 static void line(mps__text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void line(mps__text *t, const char *format, ...)
 {
@@ -18,8 +18,6 @@ static void line(mps__text *t, const char *format, ...)
     const int wanted = vsnprintf(text, sizeof text - 1, format, list),
               length = wanted < LINE - 2 ? wanted : LINE - 2;
     va_end(list);
-    for (char *c = text; *c; c++)
-        if (*c == ',') *c = '.';
     text[length] = '\n';
     if (t->data) memcpy(t->data + t->size, text, (size_t)length + 1);
     t->size += length + 1;
@@ -141,6 +139,7 @@ void mps__setup_text(const mps_sim *sim, mps__text *t)
 {
     const mps__motion *m = &sim->world.motion;
     put_config(sim, t);
+    for (int32_t k = 0; k < sim->notes; k++) line(t, "%s", sim->note[k]);
     put_phases(&sim->world, t);
     put_models(&sim->world.models, t);
     put_fields(&sim->world.particles, t);

@@ -4,6 +4,7 @@
 #include "plates.h"
 #include "step.h"
 #include "world_ranks.h"
+#include <mps/couple.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -41,6 +42,12 @@ typedef struct series_state {
     int64_t step, waits, next;
     double start;
 } series_state;
+
+/* The load of the last step, without the flags of the user and of the next step. */
+typedef struct load_state {
+    double dt, at[3], force[6], accel[6], mass[36];
+    int32_t has_mass, iterations;
+} load_state;
 
 static const char *title(char out[MPS__PART_TITLE], const char *kind, const char *name)
 {
@@ -126,6 +133,18 @@ static void put_numbers(const mps__models *m, mps__archive *a)
                              m->on[k].state.count);
 }
 
+/* Rows between the checkpoint and the first step after it are between two loads. */
+static void put_load(const mps__load *l, mps__archive *a)
+{
+    load_state out = {.dt = l->dt, .has_mass = l->has_mass, .iterations = l->iterations};
+    if (!l->known) return;
+    memcpy(out.at, l->at, sizeof out.at);
+    memcpy(out.force, l->force, sizeof out.force);
+    memcpy(out.accel, l->accel, sizeof out.accel);
+    memcpy(out.mass, l->mass, sizeof out.mass);
+    mps__archive_put(a, "load", &out, sizeof out, 1);
+}
+
 void mps__state_put(mps_sim *sim, mps__archive *a)
 {
     slot slots[SLOTS];
@@ -134,6 +153,7 @@ void mps__state_put(mps_sim *sim, mps__archive *a)
         mps__archive_put(a, slots[k].name, slots[k].at, slots[k].size, 1);
     if (mps__body_carries(&sim->world))
         mps__archive_put(a, "body", &sim->world.body.state, sizeof sim->world.body.state, 1);
+    put_load(&sim->world.load, a);
     put_particles(&sim->world, a);
     put_series(&sim->probes, a);
     put_numbers(&sim->world.models, a);
@@ -150,6 +170,7 @@ typedef struct arrival {
     int count; /* of the slots */
     const void *value[SLOTS];
     const void *body; /* NULL: none carries the tank */
+    mps__load load;   /* of the last step */
     mps__arrived arrived;
     lists have;
     double *listed_at;
@@ -209,6 +230,29 @@ static mps_status find_body(arrival *v)
     if (!v->body) return MPS_E_VERSION;
     memcpy(&body, v->body, sizeof body);
     return mps__check_body(v->a->context, &body);
+}
+
+/* A simulation that does not watch the load does not know it after a checkpoint either. */
+static mps_status find_load(arrival *v)
+{
+    const mps__load *now = &v->sim->world.load;
+    mps__load *l = &v->load;
+    load_state in;
+    *l = *now;
+    l->known = false;
+    if (!mps__archive_has(v->a, "load")) return MPS_OK;
+    const void *from = part(v, "load", sizeof in, 1);
+    if (!from) return MPS_E_VERSION;
+    memcpy(&in, from, sizeof in);
+    l->known = now->watch != MPS_LOAD_NONE || mps__body_carries(&v->sim->world);
+    l->has_mass = in.has_mass != 0 && now->watch == MPS_LOAD_MASS;
+    l->iterations = in.iterations;
+    l->dt = in.dt;
+    memcpy(l->at, in.at, sizeof l->at);
+    memcpy(l->force, in.force, sizeof l->force);
+    memcpy(l->accel, in.accel, sizeof l->accel);
+    memcpy(l->mass, in.mass, sizeof l->mass);
+    return mps__check_load(v->a->context, l);
 }
 
 static mps_status find_particles(arrival *v)
@@ -330,7 +374,7 @@ static mps_status move_in(arrival *v)
     MPS__TRY(mps__world_replace(w, v->n, v->arrived.field, v->listed_at != NULL));
     for (int k = 0; k < v->count; k++) memcpy(v->slots[k].at, v->value[k], v->slots[k].size);
     if (v->body) memcpy(&w->body.state, v->body, sizeof w->body.state);
-    w->load.known = false;
+    w->load = v->load;
     w->lists.linked = v->have.linked ? w->particles.solids : -1;
     w->lists.listed = v->have.listed ? w->particles.generation : -1;
     mps__plates_set_active(w);
@@ -361,6 +405,7 @@ mps_status mps__state_get(mps_sim *sim, const mps__archive *a)
     mps_status status = find_scalars(&v);
     if (status == MPS_OK) status = check_motion(&v);
     if (status == MPS_OK) status = find_body(&v);
+    if (status == MPS_OK) status = find_load(&v);
     if (status == MPS_OK) status = find_particles(&v);
     if (status == MPS_OK) status = find_all_series(&v);
     if (status == MPS_OK) status = find_numbers(&v);

@@ -36,15 +36,6 @@ typedef struct frame {
     column column[COLUMNS];
 } frame;
 
-/* A number as XML wants it, whatever the host program's locale says about the decimal point. */
-const char *mps__frame_number(char out[32], double value)
-{
-    snprintf(out, 32, "%.17g", value);
-    for (char *c = out; *c; c++)
-        if (*c == ',') *c = '.';
-    return out;
-}
-
 static void print_escaped(FILE *file, const char *text)
 {
     for (; *text; text++) switch (*text) {
@@ -162,11 +153,10 @@ static void print_parts(const frame *f)
 
 static void print_frame_data(const frame *f)
 {
-    char t[32];
     fprintf(f->file,
             "<FieldData><DataArray type=\"Float64\" Name=\"TimeValue\" NumberOfTuples=\"1\" "
-            "format=\"ascii\">%s</DataArray>",
-            mps__frame_number(t, f->world->state.t));
+            "format=\"ascii\">%.17g</DataArray>",
+            f->world->state.t);
     if (f->s->parts > 0) print_parts(f);
     fputs("</FieldData>\n", f->file);
 }

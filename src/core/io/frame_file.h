@@ -12,8 +12,6 @@ void mps__frame_write(const mps__world *world, int32_t kinds, FILE *file);
 /* What the pieces STEM_0000.vtp, ... in the same folder have, which ranks wrote. */
 void mps__frame_write_pieces(const mps__world *world, const char *stem, int32_t pieces, FILE *file);
 
-/* A number as XML wants it, whatever the host program's locale says about the decimal point. */
-const char *mps__frame_number(char out[32], double value);
 const char *mps__frame_byte_order(void);
 
 #endif

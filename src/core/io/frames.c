@@ -19,7 +19,8 @@ enum { NAME_SIZE = 48, LINE_SIZE = 256 };
 /* A frame of the series. */
 typedef struct stamp {
     double t;
-    bool pieces; /* .pvtp */
+    int64_t number; /* of its files */
+    bool pieces;    /* .pvtp */
 } stamp;
 
 struct mps_frames {
@@ -30,9 +31,10 @@ struct mps_frames {
     size_t path_size;
     int64_t count, capacity;
     stamp *frame;
-    bool continues; /* frames of a run before this one are in it */
-    bool pieces;    /* each rank writes its own particles */
-    int64_t place;  /* of the frame that is written */
+    bool continues;        /* frames of a run before this one are in it */
+    bool pieces;           /* each rank writes its own particles */
+    bool steps;            /* the number of a frame is that of its step */
+    int64_t place, number; /* of the frame that is written */
 };
 
 static mps_status io_failed(const mps_frames *f, const char *what, const char *path)
@@ -41,29 +43,16 @@ static mps_status io_failed(const mps_frames *f, const char *what, const char *p
                      strerror(errno));
 }
 
-/* What mps__frame_number() wrote, as strtod() wants it. */
-static double number_back(const char *text)
-{
-    char own[32], half[8];
-    snprintf(half, sizeof half, "%.1f", 0.5);
-    snprintf(own, sizeof own, "%.31s", text);
-    for (char *c = own; *c; c++)
-        if (*c == '.') *c = half[1];
-    return strtod(own, NULL);
-}
-
 static const char series_head[] = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" "
                                   "version=\"0.1\" byte_order=\"%s\">\n<Collection>\n";
 static const char series_time[] = "<DataSet timestep=\"";
 static const char series_end[] = "</Collection>\n</VTKFile>\n";
 
-/* The line of frame k in the .pvd. */
-static void series_line(const mps_frames *f, int64_t k, const stamp *frame, char line[LINE_SIZE])
+/* The line of a frame in the .pvd. */
+static void series_line(const mps_frames *f, const stamp *frame, char line[LINE_SIZE])
 {
-    char t[32];
-    snprintf(line, LINE_SIZE, "%s%s\" part=\"0\" file=\"%s/%s_%06lld.%s\"/>\n", series_time,
-             mps__frame_number(t, frame->t), f->name, f->name, (long long)k,
-             frame->pieces ? "pvtp" : "vtp");
+    snprintf(line, LINE_SIZE, "%s%.17g\" part=\"0\" file=\"%s/%s_%06lld.%s\"/>\n", series_time,
+             frame->t, f->name, f->name, (long long)frame->number, frame->pieces ? "pvtp" : "vtp");
 }
 
 static void write_series(const mps_frames *f, FILE *file)
@@ -71,7 +60,7 @@ static void write_series(const mps_frames *f, FILE *file)
     char line[LINE_SIZE];
     fprintf(file, series_head, mps__frame_byte_order());
     for (int64_t k = 0; k < f->count; k++) {
-        series_line(f, k, &f->frame[k], line);
+        series_line(f, &f->frame[k], line);
         fputs(line, file);
     }
     fputs(series_end, file);
@@ -85,7 +74,7 @@ static void write_frame(const mps_frames *f, FILE *file)
 static void write_pieces(const mps_frames *f, FILE *file)
 {
     char stem[NAME_SIZE + 32];
-    snprintf(stem, sizeof stem, "%s_%06lld", f->name, (long long)f->place);
+    snprintf(stem, sizeof stem, "%s_%06lld", f->name, (long long)f->number);
     mps__frame_write_pieces(f->world, stem, f->world->ranks.count, file);
 }
 
@@ -135,6 +124,13 @@ static bool is_frame_end(const char *end)
     return known;
 }
 
+static bool has_number(const mps_frames *f, int64_t number)
+{
+    for (int64_t k = f->count; k-- > 0;)
+        if (f->frame[k].number == number) return true;
+    return false;
+}
+
 /* "<name>_<digits>..." that the series does not name. */
 static bool is_old_frame(const mps_frames *f, const char *file)
 {
@@ -142,7 +138,7 @@ static bool is_old_frame(const mps_frames *f, const char *file)
     if (strncmp(file, f->name, length) != 0 || file[length] != '_') return false;
     const char *digits = file + length + 1;
     const size_t count = strspn(digits, "0123456789");
-    return count >= 6 && is_frame_end(digits + count) && strtoll(digits, NULL, 10) >= f->count;
+    return count >= 6 && is_frame_end(digits + count) && !has_number(f, strtoll(digits, NULL, 10));
 }
 
 /* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
@@ -177,13 +173,25 @@ static bool read_text(FILE *file, const char *wanted)
     return true;
 }
 
-/* Whether the line is the one that is written for frame k; its time and kind. */
+/* Whether the line is the one that is written for frame k; its time, number and kind. */
 static bool read_line(const mps_frames *f, int64_t k, const char *line, stamp *frame)
 {
     char wanted[LINE_SIZE];
-    *frame = (stamp){number_back(line + strlen(series_time)), strstr(line, ".pvtp\"") != NULL};
-    series_line(f, k, frame, wanted);
+    const char *number = strrchr(line, '_');
+    *frame = (stamp){strtod(line + strlen(series_time), NULL),
+                     f->steps && number ? strtoll(number + 1, NULL, 10) : k,
+                     strstr(line, ".pvtp\"") != NULL};
+    series_line(f, frame, wanted);
     return strcmp(line, wanted) == 0;
+}
+
+/* A frame that was removed after the checkpoint has no file. */
+static bool has_file(const mps_frames *f, const stamp *frame)
+{
+    struct stat there;
+    snprintf(f->temporary, f->path_size + 8, "%s/%s/%s_%06lld.%s", f->folder, f->name, f->name,
+             (long long)frame->number, frame->pieces ? "pvtp" : "vtp");
+    return stat(f->temporary, &there) == 0;
 }
 
 /* Frames up to the present one. */
@@ -200,7 +208,7 @@ static mps_status read_times(mps_frames *f, FILE *file, bool *good)
          *good && fgets(line, sizeof line, file) && strncmp(line, series_time, before) == 0; k++) {
         *good = read_line(f, k, line, &frame);
         later = later || !(frame.t <= last);
-        if (later) continue;
+        if (later || (f->steps && !has_file(f, &frame))) continue;
         MPS__TRY(mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count,
                            f->count + 1, sizeof *f->frame));
         f->frame[f->count++] = frame;
@@ -263,7 +271,8 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
 {
     mps__context *c = w->context;
     const int32_t some = MPS_FRAMES_FLUID | MPS_FRAMES_WALL | MPS_FRAMES_DUMMY,
-                  all = some | MPS_FRAMES_CONTINUE | MPS_FRAMES_PIECES | MPS_FRAMES_TANK;
+                  all = some | MPS_FRAMES_CONTINUE | MPS_FRAMES_PIECES | MPS_FRAMES_TANK |
+                        MPS_FRAMES_STEPS;
     *frames = NULL;
     MPS__CHECK(c, folder && folder[0], "the folder of the frames is NULL or empty");
     MPS__CHECK(c, good_name(name),
@@ -279,6 +288,7 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
     f->kinds = (kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL) |
                (kinds & MPS_FRAMES_TANK);
     f->continues = (kinds & MPS_FRAMES_CONTINUE) != 0;
+    f->steps = (kinds & MPS_FRAMES_STEPS) != 0;
     f->pieces = pieces;
     memcpy(f->name, name, strlen(name) + 1);
     mps_status status = open_series(f, folder);
@@ -312,6 +322,7 @@ static mps_status choose_place(mps_frames *f)
 {
     MPS__TRY(drop_repeated(f));
     f->place = f->count - repeats_last(f);
+    f->number = f->steps ? f->world->state.step : f->place;
     return mps__grow(f->world->context, (void **)&f->frame, &f->capacity, f->count, f->place + 1,
                      sizeof *f->frame);
 }
@@ -322,8 +333,8 @@ static mps_status choose_together(mps_frames *f)
     mps__ranks *r = &f->world->ranks;
     const mps_status status = r->rank == 0 ? choose_place(f) : MPS_OK;
     MPS__TRY(mps__ranks_agree(r, status));
-    if (r->rank > 0) f->place = 0;
-    mps__ranks_add(r, 1, &f->place);
+    if (r->rank > 0) f->number = 0;
+    mps__ranks_add(r, 1, &f->number);
     return mps__ranks_status(r);
 }
 
@@ -332,14 +343,14 @@ static mps_status write_part(const mps_frames *f, const char *suffix,
                              void (*write)(const mps_frames *f, FILE *file))
 {
     snprintf(f->path, f->path_size, "%s/%s/%s_%06lld%s", f->folder, f->name, f->name,
-             (long long)f->place, suffix);
+             (long long)f->number, suffix);
     return write_file(f, write);
 }
 
 /* The series with the frame that was written. */
 static mps_status add_frame(mps_frames *f)
 {
-    const stamp frame = {f->world->state.t, f->pieces};
+    const stamp frame = {f->world->state.t, f->number, f->pieces};
     const bool fresh = f->place == f->count;
     f->frame[f->place] = frame;
     if (!fresh) return MPS_OK;
@@ -388,6 +399,23 @@ mps_status mps_frames_write(mps_frames *frames)
     MPS__TRY(mps__world_fetch(w));
     if (f->pieces) return write_own_piece(f);
     return w->ranks.rank == 0 ? write_whole(f) : MPS_OK;
+}
+
+mps_status mps_frames_remove(mps_frames *frames, mps_frames_wanted_fn wanted, void *user)
+{
+    mps_frames *f = frames;
+    if (!f || !wanted) return MPS_E_ARG;
+    MPS__CHECK(f->world->context, f->steps,
+               "mps_frames_remove(): open the series with "
+               "MPS_FRAMES_STEPS");
+    if (f->world->ranks.rank > 0) return MPS_OK;
+    int64_t kept = 0;
+    for (int64_t k = 0; k < f->count; k++)
+        if (wanted(user, f->frame[k].t)) f->frame[kept++] = f->frame[k];
+    if (kept == f->count) return MPS_OK;
+    f->count = kept;
+    MPS__TRY(update_series(f));
+    return remove_old(f);
 }
 
 void mps_frames_close(mps_frames *frames)

@@ -94,7 +94,7 @@ static mps_status not_taken(mps_snapshot *k, const char *call)
 
 mps_status mps_snapshot_create(mps_sim *sim, mps_snapshot **snapshot)
 {
-    MPS__CHANGES(sim);
+    MPS__SETS(sim);
     MPS__CHECK(&sim->context, snapshot, "mps_snapshot_create(): snapshot is NULL");
     *snapshot = mps__alloc(&sim->context, 1, sizeof **snapshot);
     if (!*snapshot) return MPS_E_NOMEM;

@@ -12,7 +12,7 @@
 /* In spacings: walls within `flat` of the plane of a face belong to it, neighbours within `beside` tell a face from an edge; a particle stands for
  * its face as far as `cover`; gap to the wall on which a face stands; normals are averaged as far as `around`; faces as near as that within `as_near`
  * are told; a face that was asked for is so `near`; particles of a face are looked for as far `aside` of the sensor. */
-static const double flat = 0.25, beside = 1.6, cover = 1.1, foot_gap = 1.3, around = 1.9,
+static const double flat = 0.25, beside = 1.6, cover = 1.2, foot_gap = 1.3, around = 1.9,
                     as_near = 0.5, near = 2, aside = 3.5;
 
 /* Cosines: of the largest angle between a normal and the one that was asked for, and of the least between two faces. */

@@ -327,6 +327,8 @@ static mps_status prepare(mps__world *w, const mps__probes *all, mps__probe *p,
                           mps__sensor_place *place)
 {
     MPS__TRY(take_name(w->context, all, p));
+    MPS__TRY(mps__world_fetch_field(w, w->particles.ref));
+    MPS__TRY(mps__world_fetch_field(w, w->particles.area));
     MPS__TRY(mps__gather_solids(w));
     mps_status status = check_probe(w, &p->config, place);
     if (status == MPS_OK) status = complete(w, p);

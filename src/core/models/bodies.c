@@ -190,6 +190,10 @@ int mps__bodies_away(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
 int mps_stage_bodies(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
 {
     const mps__host *h = s->host;
+    if (!mps__stage_has_pairs(s, "mps_stage_bodies")) return 1;
+    if (!role || !body)
+        return mps_stage_fail(s, "mps_stage_bodies(): %s is NULL: must be an array of view->n",
+                              role ? "body" : "role");
     return h->twins.place == MPS__ON_DEVICE ? mps__bodies_there(s, most, role, body)
                                             : find_free(s, most, role, body);
 }

@@ -33,7 +33,7 @@ void mps__densities_find(mps__densities *d, const mps__particles *s, const mps__
     d->agreed = true;
 }
 
-void mps__densities_permuted(mps__densities *d, const mps__particles *s, int64_t changes)
+void mps__densities_kept(mps__densities *d, const mps__particles *s, int64_t changes)
 {
     if (d->changes == changes) d->changes = s->changes;
 }

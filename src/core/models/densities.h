@@ -15,7 +15,8 @@ typedef struct mps__densities {
 
 /* Find the values of all ranks, which all ask. */
 void mps__densities_find(mps__densities *d, const mps__particles *s, const mps__ghosts *g);
-/* The particles of this rank alone were put into another order; `changes`: those of the particles before. */
-void mps__densities_permuted(mps__densities *d, const mps__particles *s, int64_t changes);
+/* The particles of this rank alone have the densities that they had, perhaps in another order;
+ * `changes`: those of the particles before. */
+void mps__densities_kept(mps__densities *d, const mps__particles *s, int64_t changes);
 
 #endif

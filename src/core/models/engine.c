@@ -15,11 +15,36 @@ enum {
 
 /* ---- twins ---- */
 
+static bool is_field_of(const mps__particles *s, int64_t serial)
+{
+    for (int32_t k = 0; k < s->fields; k++)
+        if (s->field[k].serial == serial) return true;
+    return false;
+}
+
+mps__twin *mps__twin_of_field(mps__twins *t, int32_t field)
+{
+    const int64_t serial = t->particles->field[field].serial;
+    mps__twin *list = t->list + FIELDS, *own = list + field;
+    int32_t k = 0;
+    if (own->field == serial) return own;
+    while (k < MPS__FIELDS_MAX && list[k].field != serial) k++;
+    const bool is_new = k == MPS__FIELDS_MAX;
+    /* one of no field: there are as many twins as fields may be */
+    for (k = is_new ? 0 : k; is_new && is_field_of(t->particles, list[k].field);) k++;
+    const mps__twin found = list[k];
+    list[k] = *own;
+    *own = found;
+    own->field = serial;
+    if (is_new) own->bytes = 0;
+    return own;
+}
+
 /* The twin of the field that an array of the host is; NULL: it is none. */
-static mps__twin *twin_of_field(mps__twins *t, const void *array)
+static mps__twin *twin_of_array(mps__twins *t, const void *array)
 {
     for (int32_t k = 0; array && k < t->particles->fields; k++)
-        if (*t->particles->field[k].data == array) return &t->list[FIELDS + k];
+        if (*t->particles->field[k].data == array) return mps__twin_of_field(t, k);
     return NULL;
 }
 
@@ -28,10 +53,10 @@ mps__twin *mps__twin_of(mps__twins *t, int32_t channel)
 {
     if (channel < 0) return NULL;
     const mps__field *f = mps__channels_field(t->channels, t->particles, channel);
-    if (f) return &t->list[FIELDS + (f - t->particles->field)];
+    if (f) return mps__twin_of_field(t, (int32_t)(f - t->particles->field));
     if (mps__channel_is_scalar(&t->channels->list[channel])) return NULL;
     mps__twin *twin = channel == MPS__SOLID_PLACE || channel == MPS__SOLID_AREA
-                          ? twin_of_field(t, t->channels->list[channel].array)
+                          ? twin_of_array(t, t->channels->list[channel].array)
                           : NULL;
     return twin ? twin : &t->list[channel];
 }
@@ -46,7 +71,7 @@ void mps__twin_give_back(mps__twins *t, mps__twin *twin)
 {
     mps__device_leave(&t->device, &twin->spare);
     if (twin->room > 0) mps__device_give(&t->device, twin->data, twin->room);
-    *twin = (mps__twin){0};
+    *twin = (mps__twin){.field = twin->field};
 }
 
 mps_status mps__twin_fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t number)
@@ -166,7 +191,7 @@ static mps_status open_fields(mps__twins *t)
 {
     for (int32_t k = 0; k < t->particles->fields; k++) {
         const mps__field *f = &t->particles->field[k];
-        mps__twin *twin = &t->list[FIELDS + k];
+        mps__twin *twin = mps__twin_of_field(t, k);
         const size_t bytes = (size_t)t->particles->n * (size_t)f->components * f->size;
         if (t->changes != t->particles->changes || twin->bytes != bytes) {
             MPS__TRY(mps__twin_fit(t, twin, bytes, f->size));

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the arrays of a step are valid: on the host, or in the memory of a device, which loops of calls may run on. This is the one place that
- * knows, and the one that copies. Without a device all is on the host. */
+/* Where fields, channels and lists of neighbours are valid: on the host, or in the memory of a
+ * device, which loops of calls may run on. Only these functions know, and copy them. Other arrays
+ * are copied where they are used: the pressure equation (ppe_device.c, solvers_device.c), levels,
+ * halos (ghosts_there.c), results of reductions (later.c, reaction.c), bodies, voids, grids of
+ * auxgrid. Without a device all is on the host. */
 #ifndef MPS_CORE_ENGINE_H
 #define MPS_CORE_ENGINE_H
 
@@ -34,6 +37,7 @@ enum {
 
 /* An array at two places. */
 typedef struct mps__twin {
+    int64_t field;           /* mps__field.serial, of fields */
     void *host;              /* NULL: that of a channel, which may move */
     void *data;              /* of the device */
     size_t room;             /* its bytes */
@@ -105,6 +109,8 @@ mps_status mps__twins_fetch_lists(mps__twins *t);
 mps_status mps__twins_fetch_searched(mps__twins *t);
 /* The host has changed a field that it had. */
 void mps__twins_changed(mps__twins *t, const void *array);
+/* The host has changed this field alone; `changes`: those of the particles before. */
+void mps__twins_changed_alone(mps__twins *t, const void *array, int64_t changes);
 /* All fields have other values on the host: those that the device has, or has lost, are not wanted any more. */
 void mps__twins_forget(mps__twins *t);
 /* MPS_E_PLUGIN: the state was lost with a device. */
@@ -121,7 +127,7 @@ mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t
 /* The particles of the host were put into it; `changes`: those of the particles before. */
 void mps__twins_permuted(mps__twins *t, int64_t changes);
 /* Fields that the host has no values of, [fields]. */
-void mps__twins_old(const mps__twins *t, bool *old);
+void mps__twins_old(mps__twins *t, bool *old);
 /* Twins of the lists are those of no search any more. */
 void mps__twins_rows_drop(mps__twins *t);
 /* The same because the device has failed: the host may lack candidates then. */

@@ -3,11 +3,6 @@
 #include "engine_twin.h"
 #include <stdio.h>
 
-static mps__twin *twin_of_field(mps__twins *t, int32_t field)
-{
-    return &t->list[MPS__TWIN_FIELDS + field];
-}
-
 bool mps__twins_there(const mps__twins *t)
 {
     return t->step && t->changes == t->particles->changes;
@@ -39,7 +34,7 @@ static mps_status fetch(mps__twins *t, int32_t first, int32_t end)
     const mps_device_info before = t->device.info;
     MPS__TRY(mps__twins_alive(t));
     for (int32_t k = first; k < end; k++)
-        mps__twin_copy(t, twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
+        mps__twin_copy(t, mps__twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
     return came(t, &before);
 }
 
@@ -58,16 +53,23 @@ mps_status mps__twins_fetch_field(mps__twins *t, const void *array)
 void mps__twins_changed(mps__twins *t, const void *array)
 {
     for (int32_t k = 0; k < t->particles->fields; k++) {
-        mps__twin *twin = twin_of_field(t, k);
+        mps__twin *twin = mps__twin_of_field(t, k);
         void *host = *t->particles->field[k].data;
         if (host == array && twin->bytes > 0) mps__twin_change(t, twin, host, MPS__ON_HOST, true);
     }
 }
 
+void mps__twins_changed_alone(mps__twins *t, const void *array, int64_t changes)
+{
+    if (t->changes != changes) return;
+    mps__twins_changed(t, array);
+    t->changes = t->particles->changes;
+}
+
 void mps__twins_forget(mps__twins *t)
 {
     for (int32_t k = 0; k < t->particles->fields; k++)
-        twin_of_field(t, k)->old[MPS__ON_HOST] = false;
+        mps__twin_of_field(t, k)->old[MPS__ON_HOST] = false;
     t->changes = -1;
     t->gone[0] = 0;
 }
@@ -133,7 +135,7 @@ void mps__twins_rows_lose(mps__twins *t)
 
 mps_status mps__twins_keep(mps__twins *t, int32_t field, bool *kept)
 {
-    mps__twin *twin = twin_of_field(t, field);
+    mps__twin *twin = mps__twin_of_field(t, field);
     *kept = mps__twins_there(t) && twin->bytes > 0 && twin->old[MPS__ON_HOST];
     if (!*kept) return MPS_OK;
     if (!mps__device_fit(&t->device, &twin->spare, twin->bytes)) return MPS_E_NOMEM;
@@ -143,7 +145,7 @@ mps_status mps__twins_keep(mps__twins *t, int32_t field, bool *kept)
 
 void mps__twins_restore(mps__twins *t, int32_t field, bool kept)
 {
-    mps__twin *twin = twin_of_field(t, field);
+    mps__twin *twin = mps__twin_of_field(t, field);
     void *host = *t->particles->field[field].data;
     if (twin->bytes == 0) return;
     if (kept) mps__device_copy(&t->device, twin->data, twin->spare.data, twin->bytes);
@@ -191,16 +193,17 @@ mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t
         there = t->order.data;
     }
     for (int32_t k = 0; k < s->fields && status == MPS_OK; k++)
-        status = permute_field(t, twin_of_field(t, k), &s->field[k], there);
+        status = permute_field(t, mps__twin_of_field(t, k), &s->field[k], there);
     const mps_status left = mps__twins_leave(t);
     return status < 0 ? status : left;
 }
 
-void mps__twins_old(const mps__twins *t, bool *old)
+void mps__twins_old(mps__twins *t, bool *old)
 {
-    for (int32_t k = 0; k < t->particles->fields; k++)
-        old[k] = t->list[MPS__TWIN_FIELDS + k].bytes > 0 &&
-                 t->list[MPS__TWIN_FIELDS + k].old[MPS__ON_HOST];
+    for (int32_t k = 0; k < t->particles->fields; k++) {
+        const mps__twin *twin = mps__twin_of_field(t, k);
+        old[k] = twin->bytes > 0 && twin->old[MPS__ON_HOST];
+    }
 }
 
 void mps__twins_permuted(mps__twins *t, int64_t changes)
@@ -208,7 +211,7 @@ void mps__twins_permuted(mps__twins *t, int64_t changes)
     const mps__particles *s = t->particles;
     if (!t->step || t->changes != changes) return;
     for (int32_t k = 0; k < s->fields; k++) {
-        mps__twin *twin = twin_of_field(t, k);
+        mps__twin *twin = mps__twin_of_field(t, k);
         const mps__twin before = *twin;
         if (!moves(twin)) continue;
         twin->data = before.spare.data;
@@ -233,7 +236,7 @@ void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place)
 void mps__twins_fields_ready(mps__twins *t)
 {
     for (int32_t k = 0; t->open && k < t->particles->fields; k++)
-        mps__twin_copy(t, twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
+        mps__twin_copy(t, mps__twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
 }
 
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
@@ -262,7 +265,7 @@ mps__shared mps__twins_shared(mps__twins *t, int32_t channel)
 mps__shared mps__twins_shared_field(mps__twins *t, int32_t field)
 {
     const mps__field *f = &t->particles->field[field];
-    return shared_of(t, twin_of_field(t, field), *f->data, (size_t)f->components * f->size);
+    return shared_of(t, mps__twin_of_field(t, field), *f->data, (size_t)f->components * f->size);
 }
 
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)

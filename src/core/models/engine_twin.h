@@ -8,6 +8,9 @@
 /* Where fields begin in the list of twins. */
 enum { MPS__TWIN_FIELDS = MPS__CHANNELS };
 
+/* The twin of a field. Twins follow their fields, which may have been added, dropped or put in
+ * another order since. */
+mps__twin *mps__twin_of_field(mps__twins *t, int32_t field);
 /* Room for `bytes`; what it held is gone. */
 mps_status mps__twin_fit(mps__twins *t, mps__twin *twin, size_t bytes, size_t number);
 void mps__twin_give_back(mps__twins *t, mps__twin *twin);

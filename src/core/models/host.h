@@ -106,6 +106,8 @@ void mps__host_end_serial(mps_stage *s, const mps_view *there);
 /* Run the rest of a verb of a device on the host: its loops, its scratch, s->data. It must not have written anything yet. Its channels are copied to the
  * host by the first of these loops; without such a loop nothing is copied. */
 void mps__host_take(mps_stage *s);
+/* Whether there are pairs in this hook; without, the error is set. stage.c */
+int mps__stage_has_pairs(mps_stage *s, const char *call);
 /* Call it before such a loop. If the copy fails, loops of the host have no rows. */
 void mps__host_come(mps__host *h);
 /* Line of the budget of a call's verb: of plug-ins and of the slots "friction" and "layer"; of others MPS__LINE_OF_HOOK. */

@@ -292,9 +292,24 @@ MPS_ROW void look_beside(const int dim, const mps_view *v, const besides *b, int
 }
 MPS_ROWS(beside_rows, look_beside, besides)
 
+/* Calls that look at pairs; there are none before the search. */
+int mps__stage_has_pairs(mps_stage *s, const char *call)
+{
+    if (s->hook != MPS_POPULATE) return 1;
+    mps_stage_fail(s,
+                   "%s() was called in hook '%s', where there are no pairs yet: call it in a later "
+                   "hook",
+                   call, mps__hook_name(s->hook));
+    return 0;
+}
+
 int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside)
 {
     const mps_shared shared = {.values = member, .components = 1, .type = MPS_TYPE_INTEGER};
+    if (!mps__stage_has_pairs(s, "mps_stage_beside")) return 1;
+    if (!member || !beside)
+        return mps_stage_fail(s, "mps_stage_beside(): %s is NULL: must be an array of view->n",
+                              member ? "beside" : "member");
     if (mps_stage_refresh(s, 1, &shared)) return 1;
     mps_stage_rows(s, &beside_rows, &(besides){member, beside});
     return 0;

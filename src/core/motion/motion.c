@@ -185,6 +185,17 @@ void mps__motion_view_next(const mps__pose *pose, mps_tank_pose *view)
     view->has_next = 1;
 }
 
+mps__carry mps__motion_carry(const mps__motion *m, const mps__pose *pose)
+{
+    mps__carry k;
+    for (int d = 0; d < 3; d++) {
+        k.at[d] = m->centre[d] + pose->state.value[d];
+        k.rate[d] = pose->state.rate[d];
+        k.omega[d] = pose->omega[d];
+    }
+    return k;
+}
+
 bool mps__motion_turned(const mps__pose *pose)
 {
     bool turned = false;

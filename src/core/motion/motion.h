@@ -47,9 +47,11 @@ bool mps__dof_in_plane(int32_t dof);
 static inline void mps__tank_point(const int dim, const double centre[3], const double shift[3],
                                    const double R[9], const double *X, double *x)
 {
-    double r[3] = {0, 0, 0}, s[3];
+    double r[3] = {0, 0, 0}, s[3] = {0, 0, 0};
     for (int d = 0; d < dim; d++) r[d] = X[d] - centre[d];
-    for (int d = 0; d < 3; d++) s[d] = R[3 * d] * r[0] + R[3 * d + 1] * r[1] + R[3 * d + 2] * r[2];
+    for (int d = 0; d < dim; d++)
+        s[d] = dim == 3 ? R[3 * d] * r[0] + R[3 * d + 1] * r[1] + R[3 * d + 2] * r[2]
+                        : R[3 * d] * r[0] + R[3 * d + 1] * r[1];
     for (int d = 0; d < dim; d++) x[d] = centre[d] + shift[d] + s[d];
 }
 
@@ -60,7 +62,41 @@ static inline void mps__tank_place(const int dim, const double centre[3], const 
     double r[3] = {0, 0, 0};
     for (int d = 0; d < dim; d++) r[d] = x[d] - centre[d] - shift[d];
     for (int d = 0; d < dim; d++)
-        X[d] = centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
+        X[d] = centre[d] + (dim == 3 ? R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]
+                                     : R[d] * r[0] + R[3 + d] * r[1]);
+}
+
+/* Velocity of the rigid tank at one time: at + rotation about `at`. Speeds that decide something are relative to it, so that nothing depends
+ * on a uniform motion, nor liquid that turns with its tank on the rotation. */
+typedef struct mps__carry {
+    double at[3], rate[3], omega[3]; /* place of the centre [m], its velocity [m/s], [rad/s] */
+} mps__carry;
+
+/* Velocity of the tank at x. */
+MPS_ROW void mps__carried(const int dim, const mps__carry *k, const double *x, double out[3])
+{
+    const double *w = k->omega;
+    double r[3] = {0, 0, 0};
+    for (int d = 0; d < dim; d++) r[d] = x[d] - k->at[d];
+    out[0] = k->rate[0] + (dim == 2 ? -w[2] * r[1] : w[1] * r[2] - w[2] * r[1]);
+    out[1] = k->rate[1] + (dim == 2 ? w[2] * r[0] : w[2] * r[0] - w[0] * r[2]);
+    out[2] = dim == 3 ? k->rate[2] + (w[0] * r[1] - w[1] * r[0]) : 0;
+}
+
+/* Velocity u of a particle at x, relative to the tank: of a tank at rest u itself, to the bit. */
+MPS_ROW void mps__relative(const int dim, const mps__carry *k, const double *x, const double *u,
+                           double out[3])
+{
+    mps__carried(dim, k, x, out);
+    for (int d = 0; d < 3; d++) out[d] = d < dim ? u[d] - out[d] : 0;
+}
+
+/* Square of its speed. */
+MPS_ROW double mps__relative2(const int dim, const mps__carry *k, const double *x, const double *u)
+{
+    double v[3];
+    mps__relative(dim, k, x, u, v);
+    return mps__dot(v, v, dim);
 }
 
 void mps__motion_init(mps__motion *m, mps__context *context, int32_t dim);
@@ -83,6 +119,8 @@ void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const doub
 /* What rows see of a pose at the beginning of a step; and of the one at its end. */
 void mps__motion_view(const mps__motion *m, const mps__pose *pose, mps_tank_pose *view);
 void mps__motion_view_next(const mps__pose *pose, mps_tank_pose *view);
+/* Velocity of the tank at the time of a pose. */
+mps__carry mps__motion_carry(const mps__motion *m, const mps__pose *pose);
 /* Whether vectors of the tank's frame are others in the lab. */
 bool mps__motion_turned(const mps__pose *pose);
 /* Rotate a vector of the tank's frame into the lab. */

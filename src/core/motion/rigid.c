@@ -1,12 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equations of a rigid body, projected on the directions of its free degrees of freedom: T^T (M + A) T q'' = T^T loads. */
+/* Equations of a rigid body, projected on the directions of its free degrees of freedom: T^T (M
+ * + A) T q'' = T^T loads. */
 #include "rigid.h"
 #include "angles.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
 /* A degree of freedom is moved by less than this share of the liquid: by nothing. */
 static const double NOTHING = 1e-9;
+/* A rate that is stopped is less than this share of what it was. */
+static const double ROUNDING = 4 * DBL_EPSILON;
 /* cos of MPS_ROTATE_Z, below which the two other angles are one. */
 static const double ALIKE = 1e-6;
 
@@ -66,7 +70,8 @@ static void find_shape(const mps_body *b, const double centre[3], const mps_moti
         }
 }
 
-/* Force and moment about the centre of motion that give the body a linear and an angular acceleration, without velocity. */
+/* Force and moment about the centre of motion that give the body a linear and an angular
+ * acceleration, without velocity. */
 static void inertial_load(const shape *s, const double a[6], double out[6])
 {
     double at_mass[3], turn[3];
@@ -106,6 +111,8 @@ void mps__rigid_advance(const mps_body *b, const mps_motion_state *now, const do
         const bool moves = mps__rigid_is_free(b, k);
         next->accel[k] = moves ? accel[k] : 0;
         next->rate[k] = moves ? now->rate[k] + dt * accel[k] : 0;
+        if (b->friction[k] > 0 && fabs(next->rate[k]) <= ROUNDING * fabs(now->rate[k]))
+            next->rate[k] = 0;
         next->value[k] += dt * next->rate[k];
     }
 }
@@ -173,8 +180,8 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     }
 }
 
-/* Gauss without exchange: the matrix is positive definite but for the differences of A and its transpose. -1: solved, else the row
- * that has nothing to move. */
+/* Gauss without exchange: the matrix is positive definite but for the differences of A and its
+ * transpose. -1: solved, else the row that has nothing to move. */
 static int32_t eliminate(system *y, const mps__rigid_loads *l, mps__rigid_step *out)
 {
     const int32_t n = y->count;
@@ -197,6 +204,79 @@ static int32_t eliminate(system *y, const mps__rigid_loads *l, mps__rigid_step *
     return -1;
 }
 
+/* ---- dry friction ---- */
+
+/* A degree with friction moves backwards, rests, or moves forwards. */
+enum { BACK = -1, RESTS = 0, FORTH = 1, WAYS = 3 };
+
+typedef struct rubbing {
+    const mps_body *b;
+    const mps_motion_state *now;
+    const mps__rigid_loads *l;
+    system y;              /* without friction */
+    int32_t count, row[6]; /* rows of the degrees with friction */
+} rubbing;
+
+/* Accelerations and loads of friction where each degree with friction goes this way. @return by
+ * how much that contradicts itself; 0: it is the solution. A rest is kept by a row of its own,
+ * rate + dt accel = 0, and its load is what the other row lacks. */
+static double try_ways(const rubbing *f, const int32_t way[6], double accel[6], double load[6])
+{
+    system s = f->y;
+    mps__rigid_step ignored;
+    double wrong = 0;
+    for (int32_t k = 0; k < f->count; k++) {
+        const int32_t r = f->row[k], dof = s.dof[r];
+        if (way[k] != RESTS) {
+            s.rhs[r] -= way[k] * f->b->friction[dof];
+            continue;
+        }
+        const double stop = -f->now->rate[dof] / f->l->dt;
+        for (int32_t c = 0; c < s.count; c++) {
+            if (c != r) s.rhs[c] -= s.h[c][r] * stop;
+            if (c != r) s.h[r][c] = s.h[c][r] = 0;
+        }
+        s.rhs[r] = s.h[r][r] * stop;
+    }
+    if (eliminate(&s, f->l, &ignored) >= 0) return INFINITY;
+    for (int32_t k = 0; k < f->count; k++) {
+        const int32_t r = f->row[k], dof = s.dof[r];
+        const double most = f->b->friction[dof], rate = f->now->rate[dof] + f->l->dt * s.rhs[r];
+        load[dof] = -way[k] * most;
+        if (way[k] == RESTS) {
+            load[dof] = -f->y.rhs[r];
+            for (int32_t c = 0; c < s.count; c++) load[dof] += f->y.h[r][c] * s.rhs[c];
+            wrong = fmax(wrong, fabs(load[dof]) - most);
+        } else
+            wrong = fmax(wrong, -way[k] * rate * f->y.h[r][r] / f->l->dt);
+    }
+    for (int32_t k = 0; k < s.count; k++) accel[s.dof[k]] = s.rhs[k];
+    return wrong;
+}
+
+/* The matrix is positive definite, so one choice of ways and no other is consistent, but for
+ * equal ones at the limits. Few degrees have friction: all choices are tried, the one that is
+ * least wrong is taken. */
+static void rub(const rubbing *f, mps__rigid_step *out)
+{
+    int32_t choices = 1;
+    double least = INFINITY;
+    for (int32_t k = 0; k < f->count; k++) choices *= WAYS;
+    for (int32_t n = 0; n < choices && least > 0; n++) {
+        int32_t way[6];
+        double accel[6] = {0}, load[6] = {0};
+        for (int32_t k = 0, rest = n; k < f->count; k++, rest /= WAYS) {
+            const int32_t digit = rest % WAYS; /* first those that rest */
+            way[k] = digit == 0 ? RESTS : digit == 1 ? FORTH : BACK;
+        }
+        const double wrong = try_ways(f, way, accel, load);
+        if (!(wrong < least)) continue;
+        least = wrong;
+        memcpy(out->accel, accel, sizeof accel);
+        memcpy(out->friction, load, sizeof load);
+    }
+}
+
 /* Loads that the solution has, and their work over the mean velocities of the step. */
 static void book(const mps_body *b, const shape *s, const mps_motion_state *now,
                  const mps__rigid_loads *l, mps__rigid_step *out)
@@ -217,6 +297,7 @@ static void book(const mps_body *b, const shape *s, const mps_motion_state *now,
         out->liquid_work += out->liquid[i] * way[i];
         out->external_work += l->external[i] * way[i];
         out->damped += l->dt * mean[i] * mps__dot6(b->damping + 6 * i, mean);
+        out->rubbed -= l->dt * mean[i] * out->friction[i];
     }
 }
 
@@ -237,12 +318,16 @@ bool mps__rigid_solve(const mps_body *b, const double centre[3], const mps_motio
         return false;
     find_shape(b, centre, now, rate, &s);
     fill_system(b, &s, now, l, &y);
+    rubbing f = {.b = b, .now = now, .l = l, .y = y};
+    for (int32_t k = 0; k < y.count; k++)
+        if (b->friction[y.dof[k]] > 0) f.row[f.count++] = k;
     const int32_t bad = eliminate(&y, l, out);
     if (bad >= 0) {
         out->singular = y.dof[bad];
         return false;
     }
     for (int32_t k = 0; k < y.count; k++) out->accel[y.dof[k]] = y.rhs[k];
+    if (f.count > 0) rub(&f, out);
     book(b, &s, now, l, out);
     return true;
 }

@@ -6,12 +6,14 @@
 #include "motion.h"
 #include <mps/body.h>
 
-/* What a body keeps from step to step, beside the pose of the tank with its rates. Snapshots and checkpoints hold it. */
+/* What a body keeps from step to step, beside the pose of the tank with its rates. Snapshots and
+ * checkpoints hold it. */
 typedef struct mps__body_state {
     double late[6];   /* impulses of the liquid that the next step gets [N s, N m s] */
     double liquid[6]; /* loads of the last step: see mps_body_report */
     double external[6], restoring[6], felt_late[6], mass[36];
-    double damped, external_work, liquid_work, start; /* [J] */
+    double friction[6];
+    double damped, external_work, liquid_work, start, rubbed; /* [J] */
     double origin[3]; /* place of the centre of mass when the body was set */
     int64_t iterations;
 } mps__body_state;
@@ -21,7 +23,8 @@ typedef struct mps__body {
     mps__body_state state;
 } mps__body;
 
-/* What moves the body in a step of dt, after one of dt_before. About the centre of motion, axes of the lab. */
+/* What moves the body in a step of dt, after one of dt_before. About the centre of motion, axes
+ * of the lab. */
 typedef struct mps__rigid_loads {
     double rest[6]; /* of the liquid without acceleration: its load is rest - mass a */
     double mass[36];
@@ -31,12 +34,14 @@ typedef struct mps__rigid_loads {
     double dp;
 } mps__rigid_loads;
 
-/* The step that follows: accelerations of the degrees of freedom, and the six accelerations that they are in the lab. */
+/* The step that follows: accelerations of the degrees of freedom, and the six accelerations that
+ * they are in the lab. */
 typedef struct mps__rigid_step {
     double accel[6], lab[6];
-    double liquid[6], restoring[6];
-    double damped, external_work, liquid_work; /* in this step [J] */
-    /* where there is no solution: the degree of freedom, its mass with the liquid's share, the least allowed */
+    double liquid[6], restoring[6], friction[6];
+    double damped, external_work, liquid_work, rubbed; /* in this step [J] */
+    /* where there is no solution: the degree of freedom, its mass with the liquid's share, the
+     * least allowed */
     int32_t singular;
     double have, share, least;
 } mps__rigid_step;
@@ -57,7 +62,8 @@ uint32_t mps__rigid_columns(const mps_body *b, int32_t dim);
 /* Solve a step from the state `now`. false: singular, or two angles are one (singular = -1). */
 bool mps__rigid_solve(const mps_body *b, const double centre[3], const mps_motion_state *now,
                       const mps__rigid_loads *l, mps__rigid_step *out);
-/* The state at the end of a step of dt with these accelerations. */
+/* The state at the end of a step of dt with these accelerations. A degree with friction that
+ * they stop rests. */
 void mps__rigid_advance(const mps_body *b, const mps_motion_state *now, const double accel[6],
                         double dt, mps_motion_state *next);
 /* Energies: of motion; of the springs at a pose [J]. Place of the centre of mass. */

@@ -33,8 +33,8 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
     f->data = data ? data : &f->own;
     *f->data = mps__alloc(s->context, s->capacity * components, size);
     if (!*f->data) return MPS_E_NOMEM;
+    f->serial = ++s->serials;
     s->fields++;
-    s->changes++;
     keep_last(s);
     return MPS_OK;
 }
@@ -161,14 +161,12 @@ void mps__particles_field_begin(mps__particles *s, const char *name, double valu
     mps__field *f = mps__particles_field(s, name);
     if (!f) return;
     f->begin = value;
-    s->changes++;
     begin_field(f, 0, s->n);
 }
 
 void mps__particles_field_drop(mps__particles *s)
 {
     mps__field *f = &s->field[--s->fields];
-    s->changes++;
     mps__free(s->context, *f->data);
     mps__free(s->context, f->kept);
     *f->data = NULL;

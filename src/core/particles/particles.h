@@ -10,6 +10,7 @@ enum { MPS__FIELDS_MAX = 32, MPS__PHASES = MPS_PHASES, MPS__PARTS_MAX = 64, MPS_
 /* One array that travels with the particles. */
 typedef struct mps__field {
     char name[MPS__NAME_SIZE];
+    int64_t serial;     /* of this field alone, in whatever order fields are */
     int32_t components; /* per particle */
     size_t size;        /* bytes of a component */
     bool is_public;     /* doubles that may be leased for reading and writing by name */
@@ -49,13 +50,14 @@ typedef struct mps__particles {
      * dummies: their shadows */
     int32_t *plate;
     int32_t fields;
+    int64_t serials; /* fields that were added so far */
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
-    int64_t generation;         /* grows when particles come or go */
-    int64_t solids;             /* grows when solids come or go */
-    int64_t changes;            /* grows when fields change outside of the calls of a step */
-    bool written;               /* the user wrote a field since ghosts got values of all fields */
+    int64_t generation; /* grows when particles come or go */
+    int64_t solids;     /* grows when solids come or go */
+    int64_t changes;    /* grows when values of fields change outside of the calls of a step */
+    bool written;       /* the user wrote a field since ghosts got values of all fields */
     mps__scratch own, *scratch; /* to move particles with: its own, or one shared with others */
 } mps__particles;
 
@@ -81,7 +83,7 @@ mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n);
 mps__field *mps__particles_field(mps__particles *s, const char *name);
 mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t components,
                                     size_t size, bool is_public, void **data);
-/* Values of a field of doubles, of the particles there are and of those to come. */
+/* Values of a new field of doubles, of the particles there are and of those to come. */
 void mps__particles_field_begin(mps__particles *s, const char *name, double value);
 /* The last field is gone. */
 void mps__particles_field_drop(mps__particles *s);

@@ -76,7 +76,8 @@ typedef struct mps__ppe {
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *shift, *weight;
-    double *x;         /* [columns*dim] */
+    double *x;         /* [columns*dim] places less `moved`: solvers do not see a uniform motion */
+    double moved[3];   /* displacement of the tank at the beginning of the step */
     double *p;         /* [columns] */
     double *gas, *law; /* NULL: all rows are linear */
     /* [n*dim], room that mps__ppe_fill() is given for S_i = sum_j k_ij rho_ij r_ij of each row; NULL: it is not wanted. Where the equation has

@@ -3,6 +3,7 @@
 #include "ppe.h"
 #include "levels.h"
 #include "loop.h"
+#include <string.h>
 
 /* Also of columns of other ranks. */
 typedef struct notes {
@@ -10,6 +11,7 @@ typedef struct notes {
     const int32_t *particle;
     int64_t rows;
     double dt2;
+    double shift[3];
     double *x, *p, *weight;
 } notes;
 
@@ -17,7 +19,7 @@ MPS_ROW void note_row(const int dim, const notes *a, int64_t r)
 {
     const int64_t i = a->particle[r];
     a->p[r] = a->pressure[i];
-    for (int d = 0; d < dim; d++) a->x[r * dim + d] = a->place[i * dim + d];
+    for (int d = 0; d < dim; d++) a->x[r * dim + d] = a->place[i * dim + d] - a->shift[d];
     if (r < a->rows) a->weight[r] = a->dt2;
 }
 MPS__LOOP(note_rows, note_row, notes)
@@ -39,9 +41,12 @@ void mps__ppe_point(mps_ppe_problem *problem, const mps__ppe *e)
 
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
-    mps__loop_run(
-        e->parallel, &note_rows, s->dim, e->columns,
-        &(notes){s->x, t->pressure, e->particle, e->n, s->dt * s->dt, e->x, e->p, e->weight});
+    const double *shift = s->tank.shift;
+    const notes a = {s->x, t->pressure,   e->particle,
+                     e->n, s->dt * s->dt, {shift[0], shift[1], shift[2]},
+                     e->x, e->p,          e->weight};
+    memcpy(e->moved, shift, sizeof e->moved);
+    mps__loop_run(e->parallel, &note_rows, s->dim, e->columns, &a);
     MPS__TRY(mps__ppe_ranks_set(e));
     e->problem = (mps_ppe_problem){.struct_size = sizeof e->problem,
                                    .dim = s->dim,

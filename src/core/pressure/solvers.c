@@ -339,6 +339,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     limited.divergence = effort->looser * s->limits.divergence;
     s->again = effort->again;
     s->ready = s->ready && effort->again;
+    s->sent = s->sent && effort->again;
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){.struct_size = sizeof *result};
     if ((problem->ranks ? problem->ranks->rows : problem->n) == 0) return MPS_OK;

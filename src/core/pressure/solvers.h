@@ -34,6 +34,7 @@ typedef struct mps__solvers {
     /* of the step in progress; NULL: there is none. Solutions that can be found there are */
     mps__device *device;
     mps__device_block room; /* of equations that are sent there */
+    bool sent;              /* it holds the arrays that all solutions of the present series share */
     mps__pcg_hint hint;     /* for solutions there */
 } mps__solvers;
 

@@ -3,8 +3,14 @@
 #include "solvers.h"
 
 enum { ROW, COL, POSITION, SHIFT, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
-/* Arrays that matrices of a series have in common. */
-enum { SAME = VAL };
+
+/* An array of the equation. `constant`: no solution of a series changes it. bounds.c changes values, diagonal, right side and shift, in
+ * place; so a new array is not constant unless it says so. */
+typedef struct array {
+    const void *from;
+    size_t bytes;
+    bool constant;
+} array;
 
 static bool is_jacobi(const mps_preconditioner_ops *pc)
 {
@@ -34,24 +40,28 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
                        mps_ppe_problem *there, double **q)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->row[e->n], numbers = n * sizeof(double);
-    const void *const from[ARRAYS] = {e->row,      e->col, e->x,      e->shift, e->val,
-                                      e->diagonal, e->rhs, e->weight, p};
-    const size_t bytes[ARRAYS] = {(n + 1) * sizeof *e->row,
-                                  entries * sizeof *e->col,
-                                  (size_t)e->dim * numbers,
-                                  numbers,
-                                  entries * sizeof *e->val,
-                                  numbers,
-                                  numbers,
-                                  e->weight ? numbers : 0,
-                                  numbers};
+    const array arrays[ARRAYS] = {
+        [ROW] = {e->row, (n + 1) * sizeof *e->row, .constant = true},
+        [COL] = {e->col, entries * sizeof *e->col, .constant = true},
+        [POSITION] = {e->x, (size_t)e->dim * numbers, .constant = true},
+        [SHIFT] = {.from = e->shift, .bytes = numbers},
+        [VAL] = {.from = e->val, .bytes = entries * sizeof *e->val},
+        [DIAGONAL] = {.from = e->diagonal, .bytes = numbers},
+        [RHS] = {.from = e->rhs, .bytes = numbers},
+        [WEIGHT] = {.from = e->weight, .bytes = e->weight ? numbers : 0},
+        [PRESSURE] = {.from = p, .bytes = numbers},
+    };
     size_t begin[ARRAYS + 1] = {0};
-    for (int k = 0; k < ARRAYS; k++) begin[k + 1] = begin[k] + ((bytes[k] + 255) & ~(size_t)255);
-    const bool kept = s->again && begin[ARRAYS] <= s->room.bytes;
+    for (int k = 0; k < ARRAYS; k++)
+        begin[k + 1] = begin[k] + ((arrays[k].bytes + 255) & ~(size_t)255);
+    const bool sent = s->sent && begin[ARRAYS] <= s->room.bytes;
+    s->sent = false;
     char *room = mps__device_fit(s->device, &s->room, begin[ARRAYS]);
     if (!room) return MPS_E_NOMEM;
-    for (int k = kept ? SAME : 0; k < ARRAYS; k++)
-        mps__device_upload(s->device, room + begin[k], from[k], bytes[k]);
+    for (int k = 0; k < ARRAYS; k++)
+        if (!(sent && arrays[k].constant))
+            mps__device_upload(s->device, room + begin[k], arrays[k].from, arrays[k].bytes);
+    s->sent = true;
     *there = *e;
     there->row = (const int64_t *)(void *)(room + begin[ROW]);
     there->col = (const int32_t *)(void *)(room + begin[COL]);
@@ -89,5 +99,6 @@ void mps__solvers_leave(mps__solvers *s, mps__device *d)
     if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_leave(s->pc_self);
     if (s->spare_self) mps__jacobi_leave(s->spare_self);
     mps__device_leave(d, &s->room);
+    s->sent = false;
     s->device = NULL;
 }

@@ -18,6 +18,7 @@ typedef struct liquid {
     double dense;  /* liquid is at least so dense [kg/m3] */
     double least;  /* of squares of speeds that matter */
     int32_t piece; /* N */
+    mps__carry carry;
 } liquid;
 
 /* Particles of a film of two rows within the radius of one of them, with itself. */
@@ -32,21 +33,28 @@ static int32_t film_of_two_rows(const mps_stencil *t)
     return count;
 }
 
-/* Square of the speed of a particle of the liquid; -1: of another. */
+/* Square of the speed of a particle of the liquid relative to the tank; -1: of another. */
 MPS_ROW double speed2(const int dim, const mps_view *v, const liquid *f, int64_t i)
 {
     return mps_is_fluid(v, i) && f->rho[i] >= f->dense
-               ? mps__dot(f->u + i * dim, f->u + i * dim, dim)
+               ? mps__relative2(dim, &f->carry, v->x + i * dim, f->u + i * dim)
                : -1;
+}
+
+/* Particle i, then its neighbours: entry `p` from one before their begin on. One call of what is
+ * asked of each keeps the kernels of devices small. */
+MPS_ROW int64_t near_or_self(const mps_stencil *t, int64_t i, int64_t p)
+{
+    return p < mps_stencil_begin(t, i) ? i : mps_stencil_column(t, p);
 }
 
 /* How many of particle i and its neighbours have at least this square of a speed. */
 MPS_ROW int32_t as_fast(const int dim, const mps_view *v, const liquid *f, int64_t i, double square)
 {
     const mps_stencil *t = &v->near;
-    int32_t count = speed2(dim, v, f, i) >= square;
-    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++)
-        count += speed2(dim, v, f, mps_stencil_column(t, p)) >= square;
+    int32_t count = 0;
+    for (int64_t p = mps_stencil_begin(t, i) - 1; p < mps_stencil_end(t, i); p++)
+        count += speed2(dim, v, f, near_or_self(t, i, p)) >= square;
     return count;
 }
 
@@ -67,15 +75,15 @@ enum { PIECE, ANY, SPEEDS };
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const liquid *f, int64_t i, double *most)
 {
     const mps_stencil *t = &v->near;
+    const int64_t first = mps_stencil_begin(t, i) - 2; /* `more` itself, then the particles */
     const double own = speed2(dim, v, f, i), more = above(mps_larger(most[PIECE], f->least));
     if (own > most[ANY]) most[ANY] = own;
-    if (own < more || as_fast(dim, v, f, i, more) < f->piece) return;
-    if (as_fast(dim, v, f, i, own) >= f->piece) most[PIECE] = own;
-    for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
-        const double other = speed2(dim, v, f, mps_stencil_column(t, p));
-        if (other >= more && other < own && other > most[PIECE] &&
-            as_fast(dim, v, f, i, other) >= f->piece)
-            most[PIECE] = other;
+    for (int64_t p = first; own >= more && p < mps_stencil_end(t, i); p++) {
+        const double square = p == first ? more : speed2(dim, v, f, near_or_self(t, i, p));
+        if (square < more || square > own || square <= most[PIECE]) continue;
+        const bool piece = as_fast(dim, v, f, i, square) >= f->piece;
+        if (p == first && !piece) return;
+        if (p > first && piece) most[PIECE] = square;
     }
 }
 MPS_SUMS(raise_speeds, raise_speed, liquid)
@@ -104,7 +112,8 @@ static void ask_speeds(mps_stage *s, double least)
     liquid f = {.u = mps__seen(w, w->particles.u),
                 .rho = mps__seen(w, w->particles.rho),
                 .least = least * least,
-                .piece = film_of_two_rows(&s->view->near)};
+                .piece = film_of_two_rows(&s->view->near),
+                .carry = mps__motion_carry(&w->motion, &q->pose)};
     for (int p = 0; p < MPS__PHASES; p++)
         if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
     mps__host_max_later(&w->host, s->view, SPEEDS, &raise_speeds, &f, (mps__then){take_speeds, q});

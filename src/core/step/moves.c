@@ -18,6 +18,7 @@ typedef struct ways {
     const double *before, *x; /* [n*dim] places at its begin and its end */
     const double *ref, *u;
     double dt, limit;
+    mps__carry carry;
 } ways;
 
 /* How far a fluid particle went with respect to the tank. */
@@ -114,21 +115,23 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const do
     return MPS_OK;
 }
 
-/* Square of the longest way of a wall, or of the fluid as the walls see it. */
+/* Square of the longest way of a wall beside that of its present velocity, or of the fluid as the walls see it. The present velocity alone
+ * brings no wall nearer to liquid that moves with the tank. */
 MPS_ROW void raise_wall_way(const int dim, const mps_view *v, const ways *f, int64_t i,
                             double *most)
 {
     const mps_tank_pose *k = &v->tank;
     const bool fluid = mps_is_fluid(v, i);
-    double X[3], here[3], next[3], square = 0;
+    double X[3], here[3], next[3], u[3], square = 0; /* u of the tank here */
     if (fluid)
         mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
     else
         for (int d = 0; d < dim; d++) X[d] = f->ref[i * dim + d];
     mps__tank_point(dim, k->centre, k->shift, k->rotation, X, here);
     mps__tank_point(dim, k->centre, k->next_shift, k->next_rotation, X, next);
+    mps__carried(dim, &f->carry, here, u);
     for (int d = 0; d < dim; d++) {
-        const double way = next[d] - here[d] - (fluid ? f->dt * f->u[i * dim + d] : 0);
+        const double way = next[d] - here[d] - f->dt * (fluid ? f->u[i * dim + d] : u[d]);
         square += way * way;
     }
     *most = square > *most ? square : *most;
@@ -143,8 +146,10 @@ static void take_way(void *way, const double *most)
 void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way)
 {
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const ways f = {
-        .ref = mps__seen(w, w->particles.ref), .u = mps__seen(w, w->particles.u), .dt = dt};
+    const ways f = {.ref = mps__seen(w, w->particles.ref),
+                    .u = mps__seen(w, w->particles.u),
+                    .dt = dt,
+                    .carry = mps__motion_carry(&w->motion, &w->motion.now)};
     mps_view v;
     view_of(w, pose, &v);
     *way = 0; /* where a device fails */
@@ -171,13 +176,14 @@ mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, cons
 typedef struct result {
     const double *x, *u, *p;
     double fastest; /* speed limit */
+    mps__carry carry;
 } result;
 
 /* The largest speed of the fluid, and the negative of the least id of what is not finite or too fast. */
 MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int64_t i,
                           double *most)
 {
-    const double *u = f->u + i * dim, speed = sqrt(mps__dot(u, u, dim));
+    const double speed = sqrt(mps__relative2(dim, &f->carry, f->x + i * dim, f->u + i * dim));
     bool sound = speed <= f->fastest && isfinite(f->p[i]);
     for (int d = 0; d < dim; d++) sound = sound && isfinite(f->x[i * dim + d]);
     if (!sound) {
@@ -193,13 +199,14 @@ static void take_result(void *to, const double *most)
     *(mps__outcome *)to = (mps__outcome){most[0] > 0 ? most[0] : 0, most[1]};
 }
 
-void mps__world_ask_result(mps__world *w, const mps_view *s, mps__outcome *v)
+void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose, mps__outcome *v)
 {
     const mps__particles *all = &w->particles;
     const result f = {.x = mps__seen(w, all->x),
                       .u = mps__seen(w, all->u),
                       .p = mps__seen(w, all->p),
-                      .fastest = fmin(w->setup.speed_limit, DBL_MAX)};
+                      .fastest = fmin(w->setup.speed_limit, DBL_MAX),
+                      .carry = mps__motion_carry(&w->motion, pose)};
     *v = (mps__outcome){0, -INFINITY}; /* where a device fails */
     mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, v});
 }
@@ -219,7 +226,7 @@ mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_mo
                  *x = (has_moved ? places_before(w) : all->x) + worst * s->dim;
     mps__fail(w->context, MPS_E_DIVERGED,
               "t = %.9g s: particle %lld at (%g, %g, %g) m got velocity (%g, %g, %g) m/s and "
-              "pressure %g Pa; allowed: finite, at most %g m/s",
+              "pressure %g Pa; allowed: finite, at most %g m/s relative to the tank",
               s->t, (long long)all->id[worst], x[0], x[1], s->dim == 3 ? x[2] : 0, u[0], u[1],
               s->dim == 3 ? u[2] : 0, w->particles.p[worst], w->setup.speed_limit);
     return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);

@@ -9,14 +9,15 @@
 
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
-/* What velocities, pressures and places are like. */
+/* What velocities relative to the tank in a pose, pressures and places are like. */
 typedef struct mps__outcome {
     double fastest; /* speed [m/s] */
     double
         failed; /* negative of the least id of what is not finite or too fast; -INFINITY: all are sound */
 } mps__outcome;
 /* Known after mps__host_settle(). moves.c */
-void mps__world_ask_result(mps__world *w, const mps_view *s, mps__outcome *v);
+void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose,
+                           mps__outcome *v);
 /* Fail for what is not finite or too fast, with the particle and its place before it moved, if it `has_moved`. Sets the largest speed of `info`. moves.c */
 mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
                                    const mps__outcome *v, mps_step_info *info);

@@ -86,8 +86,10 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
     memcpy(state->liquid, r.liquid, sizeof state->liquid);
     memcpy(state->external, l.external, sizeof state->external);
     memcpy(state->restoring, r.restoring, sizeof state->restoring);
+    memcpy(state->friction, r.friction, sizeof state->friction);
     memcpy(state->mass, l.mass, sizeof state->mass);
     state->damped += r.damped;
+    state->rubbed += r.rubbed;
     state->external_work += r.external_work;
     state->liquid_work += r.liquid_work;
     state->iterations = q->load.iterations;

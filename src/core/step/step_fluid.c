@@ -200,7 +200,7 @@ static mps_status tell_result(mps__step *q)
 static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__world_ask_result(q->w, &q->view, &q->outcome);
+    mps__world_ask_result(q->w, &q->view, &q->pose, &q->outcome);
     if (mps__world_may_jump(q->w)) mps__host_settle(&q->w->host);
     if (mps__world_may_jump(q->w) || !mps__device_of(&q->w->pool.parallel))
         MPS__TRY(tell_result(q));

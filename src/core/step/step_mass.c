@@ -86,7 +86,7 @@ static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dof
     const int32_t dim = w->setup.dim, count = q->columns.count, degree = q->columns.degree[c];
     mps_ppe_result result = {.struct_size = sizeof result};
     side f = {.moments = m->moments, .x = e->x, .rhs = m->rhs, .freedom = freedom[degree]};
-    memcpy(f.at, q->load.at, sizeof f.at);
+    for (int d = 0; d < 3; d++) f.at[d] = q->load.at[d] - e->moved[d];
     mps__loop_run(parallel, &side_rows, dim, e->n, &f);
     mps__loop_run(parallel, &transfer_rows, dim, e->columns,
                   &(transfer){e->particle, m->guess, m->p, dofs, degree, 1, 0});
@@ -277,9 +277,9 @@ mps_status mps__step_mass(mps__step *q)
     const int32_t dofs = mps__step_freedom(w->setup.dim, freedom);
     if (!q->terms.equation.body || mps__channels_find(&w->channels, "correction") < 0)
         return mps__fail(w->context, MPS_E_STATE,
-                         "the added mass needs a pressure equation in the frame of the tank, as "
-                         "'source.volume' makes it: use that model, or mps_load_watch() with "
-                         "MPS_LOAD_FORCE and no mps_body_set()");
+                         "the added mass of the liquid, which a body and an FMU need, has no "
+                         "pressure equation in the frame of the tank: 'source.volume' makes it, "
+                         "which the presets imps and mmps have");
     MPS__TRY(reserve(w, q->columns.count));
     get_ready(w);
     q->load.has_mass = true;

@@ -166,7 +166,7 @@ static mps_status tell_failure(mps_stage *s, mps_status status)
     if (status == MPS_E_SOLVER) {
         const mps_view *there = w->ppe.device ? mps__host_begin_serial(s) : NULL;
         mps__twins_fields_ready(&w->host.twins);
-        mps__world_ask_result(w, &q->view, &q->outcome);
+        mps__world_ask_result(w, &q->view, &q->pose, &q->outcome);
         mps__host_settle(&w->host);
         mps_status found = mps__host_check_reactions(&w->host, q->view.t);
         if (found == MPS_OK)

@@ -9,7 +9,7 @@
 static mps_status swap_out(mps__world *w, int64_t n)
 {
     mps__particles *s = &w->particles;
-    mps__gathered *g = &w->gathered;
+    mps__collected *g = &w->gathered;
     void *fresh[MPS__FIELDS_MAX];
     for (int32_t k = 0; k < s->fields; k++) {
         fresh[k] = mps__alloc(w->context, n, (size_t)s->field[k].components * s->field[k].size);
@@ -32,7 +32,7 @@ static mps_status swap_out(mps__world *w, int64_t n)
 void mps__gather_end(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    mps__gathered *g = &w->gathered;
+    mps__collected *g = &w->gathered;
     for (int32_t k = 0; k < s->fields && g->swapped; k++) {
         mps__free(w->context, *s->field[k].data);
         *s->field[k].data = g->array[k];
@@ -44,7 +44,7 @@ void mps__gather_end(mps__world *w)
     }
     mps__free(w->context, g->listed);
     if (g->listed) w->lists.listed_at = NULL;
-    *g = (mps__gathered){0};
+    *g = (mps__collected){0};
 }
 
 /* ---- messages ---- */

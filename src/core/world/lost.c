@@ -222,15 +222,16 @@ typedef struct aheads {
     box box;
     rims rims; /* `rim` NULL: rows are not here, or plates hide some of their candidates */
     const double *searched, *u;
+    mps__carry carry;
 } aheads;
 
 MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
 {
-    double way = 0, speed = 0;
+    const double speed = mps__relative2(dim, &f->carry, v->x + i * dim, f->u + i * dim);
+    double way = 0;
     for (int d = 0; d < dim; d++) {
-        const double m = v->x[i * dim + d] - f->searched[i * dim + d], u = f->u[i * dim + d];
+        const double m = v->x[i * dim + d] - f->searched[i * dim + d];
         way += m * m;
-        speed += u * u;
     }
     if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
     if (most[MPS__AHEAD_SPILLED] < 1)
@@ -248,7 +249,8 @@ static void take_ahead(void *to, const double *most)
 void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
 {
     aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                .u = mps__seen(w, w->particles.u)};
+                .u = mps__seen(w, w->particles.u),
+                .carry = mps__motion_carry(&w->motion, pose)};
     mps_view v;
     if (mps__world_rows_there(w) && w->lists.screens.count == 0) {
         f.rims = rims_of(w);

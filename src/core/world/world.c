@@ -124,13 +124,13 @@ void mps__world_view(const mps__world *w, mps_view *v)
 
 typedef struct speeds {
     const double *u;
+    mps__carry carry;
 } speeds;
 
-/* The square of the largest speed; a NaN does not count. */
+/* The square of the largest speed relative to the tank; a NaN does not count. */
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
-    const double *u = f->u + i * dim, square = mps__dot(u, u, dim);
-    (void)v;
+    const double square = mps__relative2(dim, &f->carry, v->x + i * dim, f->u + i * dim);
     *most = square > *most ? square : *most;
 }
 MPS_SUMS(raise_speeds, raise_speed, speeds)
@@ -142,7 +142,8 @@ double mps__world_speed(mps__world *w)
     if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
     mps__world_view(w, &v);
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    mps__host_max(&w->host, &v, 1, &raise_speeds, &(speeds){mps__seen(w, w->particles.u)}, &most);
+    const speeds f = {mps__seen(w, w->particles.u), mps__motion_carry(&w->motion, &w->motion.now)};
+    mps__host_max(&w->host, &v, 1, &raise_speeds, &f, &most);
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);
 }

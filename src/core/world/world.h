@@ -145,15 +145,15 @@ typedef struct mps__ahead {
     bool holds;   /* in the step in progress */
 } mps__ahead;
 
-/* What stands aside while the store has particles of all ranks; gather.h. */
-typedef struct mps__gathered {
+/* The store of this rank while rank 0 has the particles of all ranks; gather.h. */
+typedef struct mps__collected {
     bool begun; /* by the user */
     bool swapped;
     void *array[MPS__FIELDS_MAX]; /* of the fields */
     int64_t n, capacity;
     uint8_t *ghost;
     double *listed; /* places of the last search */
-} mps__gathered;
+} mps__collected;
 
 /* Work of this rank since ranks compared theirs; balance.c. */
 typedef struct mps__balance {
@@ -196,7 +196,7 @@ typedef struct mps__world {
     int32_t threads; /* of the pool */
     mps__ranks ranks;
     mps__ghosts ghosts;
-    mps__gathered gathered;
+    mps__collected gathered;
     mps__balance balance;
     mps__models models;
     mps__channels channels;
@@ -230,6 +230,9 @@ mps_status mps__world_neighbours_populated(mps__world *w);
  * them outside of the calls of a step. MPS_E_PLUGIN: a device has them alone and does not give them. world_fields.c */
 mps_status mps__world_fetch(const mps__world *w);
 mps_status mps__world_fetch_field(const mps__world *w, const void *array);
+/* A public function writes one field: it is on the host, and a device has old values from now on.
+ * MPS_E_PLUGIN: nothing has changed. world_fields.c */
+mps_status mps__world_write_field(mps__world *w, const void *array);
 mps_status mps__world_fetch_lists(const mps__world *w);
 mps_status mps__world_fetch_searched(const mps__world *w);
 /* Whether loops run on the device of a step that begins; whether it has the lists of the last search, too. world_rows.c */
@@ -286,7 +289,7 @@ static inline double mps__crossing_limit(const mps__world *w)
 {
     return w->setup.dp / (5 * w->setup.velocity_scale);
 }
-/* Largest speed of all particles [m/s]. */
+/* Largest speed of all particles relative to the tank [m/s]. */
 double mps__world_speed(mps__world *w);
 /* Box of the solids of all ranks in the tank's frame: upper corner, negative of the lower one; -INFINITY without any. */
 void mps__world_box_of_solids(mps__world *w, double corner[6]);

@@ -25,6 +25,21 @@ mps_status mps__world_fetch_field(const mps__world *w, const void *array)
     return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, array));
 }
 
+mps_status mps__world_write_field(mps__world *w, const void *array)
+{
+    mps__particles *s = &w->particles;
+    const int64_t before = s->changes;
+    MPS__TRY(mps__world_fetch_field(w, array));
+    s->changes++;
+    mps__twins_changed_alone(&w->host.twins, array, before);
+    if (array != s->rho) mps__densities_kept(&w->host.densities, s, before);
+    if (array == s->x || array == s->u || array == s->rho) return MPS_OK;
+    /* sums of the flow, and what the last step saw ahead, are made of these three alone */
+    if (w->booked == before) w->booked = s->changes;
+    if (w->ahead.changes == before) w->ahead.changes = s->changes;
+    return MPS_OK;
+}
+
 mps_status mps__world_fetch_searched(const mps__world *w)
 {
     return tell(w, mps__twins_fetch_searched((mps__twins *)&w->host.twins));

@@ -6,13 +6,15 @@
 /* Ghosts must not be lost to rounding of places in the tank's frame. */
 static const double margin = 1e-9;
 
-/* Owners of places of the lab. */
+/* Owners of positions of the pressure equation, which are less the displacement of the tank. */
 static mps_status find_owners(void *world, int64_t m, const double *x, int32_t *rank)
 {
     mps__world *w = world;
     for (int64_t k = 0; k < m && !w->ranks.failed; k++) {
-        double X[3];
-        mps__motion_to_tank(&w->motion, &w->motion.now, x + k * w->setup.dim, X);
+        double at[3] = {0}, X[3];
+        for (int32_t d = 0; d < w->setup.dim; d++)
+            at[d] = x[k * w->setup.dim + d] + w->ppe.moved[d];
+        mps__motion_to_tank(&w->motion, &w->motion.now, at, X);
         w->ranks.failed = w->ranks.ops.owner(w->ranks.self, 1, X, rank + k) != 0;
     }
     return mps__ranks_status(&w->ranks);
@@ -198,7 +200,7 @@ mps_status mps__world_divide(mps__world *w)
     mps__twins_old(&w->host.twins, old);
     MPS__TRY(mps__particles_reorder(s, s->n, l->order, old));
     mps__twins_permuted(&w->host.twins, changes);
-    if (!mps__ranks_many(&w->ranks)) mps__densities_permuted(&w->host.densities, s, changes);
+    if (!mps__ranks_many(&w->ranks)) mps__densities_kept(&w->host.densities, s, changes);
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
@@ -257,10 +259,13 @@ mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world 
     if (!f) return MPS_OK;
     mps_status status = mps__world_fetch(w); /* before places are others */
     if (status == MPS_OK && w->lists.linked == s->solids && w->lists.listed == s->generation) {
+        const bool recut = w->ghosts.recut;
+        w->ghosts.recut = false; /* cuts are those of places now */
         exchange_places(s, *f->data);
         status = mps__world_divide(w);
         if (status == MPS_OK) status = search(w);
         exchange_places(s, *f->data);
+        w->ghosts.recut = recut;
         w->lists.neighbours.valid = status == MPS_OK;
     }
     mps__particles_field_drop(s);

@@ -412,7 +412,7 @@ mps_status mps__contour_mesh(const mps__shape *shape, const mps__contour_box *bo
     mps_status status = find_vertices(&g, &c, mesh->context, shape, box);
     if (status == MPS_OK) status = fill_mesh(&g, &c, mesh);
     mps__mesh_faults faults; /* it may end at the box */
-    if (status == MPS_OK) status = mps__mesh_weld(mesh, &faults);
+    if (status == MPS_OK) status = mps__mesh_weld(mesh, 0, &faults);
     if (status == MPS_OK) status = mps__mesh_finish(mesh);
     mps__contour_free(&c, mesh->context);
     grid_free(&g);

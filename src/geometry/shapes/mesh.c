@@ -3,6 +3,7 @@
  * corner; at corners the normals are weighted by angle (Baerentzen and Aanaes 2005), the only weight for which the sign is right. */
 #include "mesh.h"
 #include "angles.h"
+#include "buckets.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,6 +160,44 @@ static int64_t remove_degenerate(mps__mesh *m)
     return lost;
 }
 
+/* A triangle by its corners, the lowest first, in the order of the triangle. */
+typedef struct triangle {
+    int32_t corner[3], element;
+} triangle;
+
+static int compare_faces(const void *a, const void *b)
+{
+    const triangle *p = a, *q = b;
+    for (int k = 0; k < 3; k++)
+        if (p->corner[k] != q->corner[k]) return p->corner[k] < q->corner[k] ? -1 : 1;
+    return (p->element > q->element) - (p->element < q->element);
+}
+
+/* Of triangles with the same corners, in the same order, the first one stays. */
+static mps_status remove_twice(mps__mesh *m, int64_t *lost)
+{
+    triangle *f = mps__alloc(m->context, m->elements, sizeof *f);
+    if (!f) return MPS_E_NOMEM;
+    for (int64_t e = 0; e < m->elements; e++) {
+        const int32_t *c = m->corner + 3 * e;
+        const int low = c[0] < c[1] ? (c[0] < c[2] ? 0 : 2) : c[1] < c[2] ? 1 : 2;
+        f[e].element = (int32_t)e;
+        for (int k = 0; k < 3; k++) f[e].corner[k] = c[(low + k) % 3];
+    }
+    qsort(f, (size_t)m->elements, sizeof *f, compare_faces);
+    for (int64_t k = 1; k < m->elements; k++)
+        if (memcmp(f[k].corner, f[k - 1].corner, sizeof f[k].corner) == 0)
+            m->corner[3 * (int64_t)f[k].element] = -1;
+    int64_t kept = 0;
+    for (int64_t e = 0; e < m->elements; e++)
+        if (m->corner[3 * e] >= 0)
+            memmove(m->corner + 3 * kept++, m->corner + 3 * e, 3 * sizeof *m->corner);
+    *lost = m->elements - kept;
+    m->elements = kept;
+    mps__free(m->context, f);
+    return MPS_OK;
+}
+
 /* An edge of a triangle, from its lower point to its higher one. */
 typedef struct side {
     int32_t low, high, place; /* place: 3 * element + number of the edge */
@@ -191,8 +230,9 @@ static void middle_of(const mps__mesh *m, const side *s, double out[3])
         out[d] = 0.5 * (m->x[3 * (int64_t)s->low + d] + m->x[3 * (int64_t)s->high + d]);
 }
 
-/* Edge normals, and what is wrong with the `count` triangles at one edge. */
-static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_faults *faults)
+/* Edge normals, and what is wrong with the `count` triangles at one edge. Points of open edges are noted in `rim`. */
+static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_faults *faults,
+                         unsigned char *rim)
 {
     double sum[3] = {0, 0, 0};
     int64_t balance = 0;
@@ -206,6 +246,7 @@ static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_f
     for (int64_t k = 0; k < count; k++)
         memcpy(m->edge_normal + 3 * (int64_t)s[k].place, sum, sizeof sum);
     if (balance == 0) return;
+    rim[s->low] = rim[s->high] = 1;
     if (count % 2 == 1 && faults->open++ == 0) middle_of(m, s, faults->open_at);
     if (count % 2 == 0 && faults->turned++ == 0) middle_of(m, s, faults->turned_at);
 }
@@ -231,8 +272,9 @@ static void add_point_normals(mps__mesh *m)
     }
 }
 
-static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults)
+static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned char *rim)
 {
+    mps__free(m->context, m->edge_normal);
     m->edge_normal = mps__alloc(m->context, 9 * m->elements, sizeof *m->edge_normal);
     side *s = m->edge_normal ? collect_sides(m) : NULL;
     if (!s) return MPS_E_NOMEM;
@@ -241,22 +283,100 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults)
              next < 3 * m->elements && s[next].low == s[k].low && s[next].high == s[k].high;
              next++) {
         }
-        look_at_edge(m, s + k, next - k, faults);
+        look_at_edge(m, s + k, next - k, faults, rim);
     }
     mps__free(m->context, s);
     return MPS_OK;
 }
 
-mps_status mps__mesh_weld(mps__mesh *m, mps__mesh_faults *faults)
+/* ---- gaps ---- */
+
+/* Points of `rim` join the first of them that is near. @param number  [points] out: what they become */
+static mps_status find_near(const mps__mesh *m, const unsigned char *rim, double tolerance,
+                            int32_t *number, mps__mesh_faults *faults)
+{
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    double cell = tolerance;
+    mps__buckets kept;
+    for (int64_t k = 0; k < 3 * m->points; k++) {
+        lo[k % 3] = fmin(lo[k % 3], m->x[k]);
+        hi[k % 3] = fmax(hi[k % 3], m->x[k]);
+    }
+    for (int d = 0; d < 3; d++) cell = fmax(cell, (hi[d] - lo[d]) / 64);
+    int32_t *point = mps__alloc(m->context, m->points, sizeof *point);
+    mps_status status = point ? mps__buckets_init(&kept, m->context, 3, lo, hi, cell) : MPS_E_NOMEM;
+    if (status < 0) {
+        mps__free(m->context, point);
+        return status;
+    }
+    for (int64_t i = 0; i < m->points && status == MPS_OK; i++) {
+        double r;
+        number[i] = (int32_t)i;
+        if (!rim[i]) continue;
+        const int64_t near = mps__buckets_nearest(&kept, m->x + 3 * i, tolerance, &r);
+        if (near < 0) {
+            point[kept.count] = (int32_t)i;
+            status = mps__buckets_add(&kept, m->x + 3 * i);
+            continue;
+        }
+        number[i] = point[near];
+        faults->joined++;
+        faults->gap = fmax(faults->gap, r);
+    }
+    mps__buckets_free(&kept);
+    mps__free(m->context, point);
+    return status;
+}
+
+static mps_status close_gaps(mps__mesh *m, const unsigned char *rim, double tolerance,
+                             mps__mesh_faults *faults)
+{
+    int32_t *number = mps__alloc(m->context, m->points, sizeof *number);
+    if (!number) return MPS_E_NOMEM;
+    const mps_status status = find_near(m, rim, tolerance, number, faults);
+    for (int64_t k = 0; status == MPS_OK && k < 3 * m->elements; k++)
+        m->corner[k] = number[m->corner[k]];
+    mps__free(m->context, number);
+    if (status == MPS_OK) faults->degenerate += remove_degenerate(m);
+    return status;
+}
+
+static mps_status look_at_surface(mps__mesh *m, double tolerance, mps__mesh_faults *faults)
+{
+    unsigned char *rim = mps__alloc(m->context, m->points, 1);
+    if (!rim) return MPS_E_NOMEM;
+    mps_status status = remove_twice(m, &faults->twice);
+    if (status == MPS_OK) status = look_at_edges(m, faults, rim);
+    if (status == MPS_OK && faults->open > 0 && tolerance > 0) {
+        status = close_gaps(m, rim, tolerance, faults);
+        faults->open = faults->turned = 0;
+        if (status == MPS_OK) status = look_at_edges(m, faults, rim);
+    }
+    mps__free(m->context, rim);
+    return status;
+}
+
+mps_status mps__mesh_weld(mps__mesh *m, double tolerance, mps__mesh_faults *faults)
 {
     *faults = (mps__mesh_faults){0};
     MPS__TRY(weld_points(m));
     faults->degenerate = remove_degenerate(m);
     m->point_normal = mps__alloc(m->context, 3 * m->points, sizeof *m->point_normal);
     if (!m->point_normal) return MPS_E_NOMEM;
-    if (m->dim == 3) MPS__TRY(look_at_edges(m, faults));
+    if (m->dim == 3) MPS__TRY(look_at_surface(m, tolerance, faults));
     add_point_normals(m);
     return MPS_OK;
+}
+
+double mps__mesh_area(const mps__mesh *m)
+{
+    double area = 0;
+    for (int64_t e = 0; e < m->elements; e++) {
+        double n[3];
+        face_normal(m, e, n);
+        area += 0.5 * sqrt(dot(n, n));
+    }
+    return area;
 }
 
 double mps__mesh_volume(const mps__mesh *m)
@@ -456,16 +576,16 @@ double mps__mesh_distance(const mps__mesh *m, const double x[3], double foot[3],
         stack[depth++] = left_first ? node->right : left;
         stack[depth++] = left_first ? left : node->right;
     }
-    double face[3];
+    double across[3];
     if (m->nodes == 0) return INFINITY;
-    pseudonormal(m, &best, face);
-    const double r = sqrt(best.r2), sign = dot(best.to, face) > 0 ? 1 : -1;
-    unit(face);
+    pseudonormal(m, &best, across);
+    const double r = sqrt(best.r2), sign = dot(best.to, across) > 0 ? 1 : -1;
+    unit(across);
     /* on the surface itself the way to it has no direction */
     const bool on = !(r > 1e-9 * m->size);
     for (int d = 0; d < 3; d++) {
         if (foot) foot[d] = x[d] - best.to[d];
-        if (n) n[d] = on ? face[d] : sign * best.to[d] / r;
+        if (n) n[d] = on ? across[d] : sign * best.to[d] / r;
     }
     return sign * r;
 }

@@ -30,18 +30,32 @@ typedef struct mps__mesh_faults {
     int64_t degenerate; /* triangles without area, removed */
     int64_t open;       /* edges with one triangle only */
     int64_t turned;     /* edges whose triangles do not go around them in opposite directions */
+    int64_t twice;      /* triangles that were there before, removed */
+    int64_t joined;     /* points at open edges that became one with another one nearby */
+    double gap;         /* widest distance between such points */
     double open_at[3], turned_at[3];
 } mps__mesh_faults;
+
+/* Shells of a closed surface in 3-D: parts that share no point. */
+typedef struct mps__mesh_shells {
+    int64_t count,
+        within; /* of them, and of those within another one; of more than 32 this is not known */
+    double inner, outer;   /* volumes of the first of these and of the one around it */
+    int64_t places, wrong; /* places of its box, and those that are not enclosed 0 or 1 times */
+    double times, wrong_at[3];
+} mps__mesh_shells;
 
 void mps__mesh_init(mps__mesh *m, mps__context *context, int32_t dim);
 void mps__mesh_free(mps__mesh *m);
 /* Room for that many more points (3 numbers each) and elements. */
 mps_status mps__mesh_reserve(mps__mesh *m, int64_t points, int64_t elements);
-/* Make points with equal coordinates one, remove degenerate elements, look at the edges (3-D), compute normals. The normal of a segment
- * is on its right. */
-mps_status mps__mesh_weld(mps__mesh *m, mps__mesh_faults *faults);
+/* Make points with equal coordinates one, remove degenerate elements and triangles that are there twice, look at the edges (3-D), compute
+ * normals. Points of open edges that are within `tolerance` of each other become one. The normal of a segment is on its right. */
+mps_status mps__mesh_weld(mps__mesh *m, double tolerance, mps__mesh_faults *faults);
 /* Enclosed volume, > 0 if the normals (counter-clockwise) look out. */
 double mps__mesh_volume(const mps__mesh *m);
+mps_status mps__mesh_find_shells(const mps__mesh *m, mps__mesh_shells *out);
+double mps__mesh_area(const mps__mesh *m);
 /* Turn all triangles over, with their normals. */
 void mps__mesh_turn(mps__mesh *m);
 /* Edges of a welded surface in 3-D where faces meet at more than an angle, in the order of their triangles.

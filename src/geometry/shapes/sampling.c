@@ -6,10 +6,14 @@
 #include <mps/numbers.h>
 #include <string.h>
 
-enum { SWEEPS = 40, CLASSES = 3, ODD = 4 };
+enum { SWEEPS = 40, ROUNDS = 4, ODD = 4 };
 
-/* In spacings: room to particles that are there, first and last distance tried for thinning, reach and length of the repulsion. */
-static const double room = 0.7, widest = 0.9, narrowest = 0.6, range = 1.6, push = 0.35;
+/* In spacings: room to particles that are there, and the part of the surface that they take; distances tried for thinning, the first one and the limits; reach and length of
+ * the repulsion; half the width of a gap that takes a particle, in 2-D and 3-D. */
+static const double room = 0.7, beside = 0.5, widest = 0.9, longest = 1.1, narrowest = 0.6,
+                    step = 0.02, range = 1.6, push = 0.35, hole[2] = {0.5, 0.7};
+/* Number of wall particles that is aimed at, in parts of the surface over dp^(dim-1). */
+static const double least = 0.98, most = 1.05;
 /* Of dummies to walls and to each other; depth to which a wall has to be solid. */
 static const double wall_room = 0.7, layer_room = 0.75, gap_room = 0.8, thin_depth = 2.99;
 
@@ -48,44 +52,98 @@ static mps_status take_vertices(mps__samples *s, int32_t feature, int32_t odd, d
     return MPS_OK;
 }
 
+/* One place between the vertices, where it is far enough from all particles. */
+static mps_status take_patch(mps__samples *s, int64_t k, double distance)
+{
+    const double dp = s->shape->dp;
+    mps__vertex v = {.feature = MPS__FACE};
+    memcpy(v.x, s->contour->patch[k].x, sizeof v.x);
+    if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0)
+        return MPS_OK;
+    if (s->others && mps__buckets_nearest(s->others, v.x, room * dp, NULL) >= 0) return MPS_OK;
+    return mps__shape_project(s->shape, v.x, dp) ? add_wall(s, &v) : MPS_OK;
+}
+
 /* In 2-D vertices are too far apart to choose from: places between those on the lattice. */
 static mps_status take_patches(mps__samples *s, double distance)
 {
+    for (int64_t k = 0; k < s->contour->patches; k++) MPS__TRY(take_patch(s, k, distance));
+    return MPS_OK;
+}
+
+/* Area on which wall particles are to be placed, and how many: beside particles that are there already those take a part of it. */
+static void find_surface(mps__samples *s)
+{
     const double dp = s->shape->dp;
+    double taken = 0;
+    s->surface = 0;
     for (int64_t k = 0; k < s->contour->patches; k++) {
-        mps__vertex v = {.feature = MPS__FACE};
-        memcpy(v.x, s->contour->patch[k].x, sizeof v.x);
-        if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0)
-            continue;
-        if (s->others && mps__buckets_nearest(s->others, v.x, room * dp, NULL) >= 0) continue;
-        if (mps__shape_project(s->shape, v.x, dp)) MPS__TRY(add_wall(s, &v));
+        const mps__patch *p = &s->contour->patch[k];
+        if (!is_kept(s, p->x)) continue;
+        s->surface += length_of(p->area);
+        if (s->others && mps__buckets_nearest(s->others, p->x, beside * dp, NULL) >= 0)
+            taken += length_of(p->area);
+    }
+    /* in 2-D the ends of a surface need particles: its faces reach to their feet on what is there */
+    if (s->shape->dim == 2) taken = fmax(0, taken - 2 * beside * dp);
+    s->wanted = (s->surface - taken) / mps_pow(dp, s->shape->dim - 1);
+}
+
+/* Thin the vertices to a distance. */
+static mps_status thin_to(mps__samples *s, const double *lo, const double *hi, double distance)
+{
+    const int dim = s->shape->dim;
+    mps__buckets_free(&s->wall);
+    MPS__TRY(mps__buckets_init(&s->wall, s->context, dim, lo, hi, s->shape->dp));
+    for (int32_t feature = MPS__CORNER; feature <= MPS__FACE; feature++)
+        for (int32_t odd = 0; odd < (dim == 3 || feature < MPS__FACE ? ODD : 1); odd++)
+            MPS__TRY(take_vertices(s, feature, odd, distance));
+    return dim == 2 ? take_patches(s, distance) : MPS_OK;
+}
+
+/* The widest distance that leaves one particle for every dp^(dim-1) of the surface. Vertices are dp/2 apart: where a shorter distance
+ * accepts all of them on a face their number jumps, and the distance before it leaves gaps for fill_holes(). */
+static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
+{
+    double distance = widest;
+    MPS__TRY(thin_to(s, lo, hi, distance));
+    while ((double)s->wall.count > most * s->wanted && distance < longest) {
+        distance += step;
+        MPS__TRY(thin_to(s, lo, hi, distance));
+    }
+    while ((double)s->wall.count < least * s->wanted && distance > narrowest) {
+        distance -= step;
+        MPS__TRY(thin_to(s, lo, hi, distance));
+        if ((double)s->wall.count <= most * s->wanted) continue;
+        return thin_to(s, lo, hi, distance + step);
     }
     return MPS_OK;
 }
 
-/* Area on which wall particles are to be placed. */
-static double surface_of(const mps__samples *s)
+/* A step near the golden section of n that visits all of 0 .. n - 1, each far from those before it. */
+static int64_t spread_step(int64_t n)
 {
-    double sum = 0;
-    for (int64_t k = 0; k < s->contour->patches; k++)
-        if (is_kept(s, s->contour->patch[k].x)) sum += length_of(s->contour->patch[k].area);
-    return sum;
+    for (int64_t k = (int64_t)(0.618 * (double)n); k > 1; k--) {
+        int64_t a = n, b = k;
+        while (b > 0) {
+            const int64_t rest = a % b;
+            a = b;
+            b = rest;
+        }
+        if (a == 1) return k;
+    }
+    return 1;
 }
 
-/* The widest distance that leaves one particle for every dp^(dim-1) of the surface. */
-static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
+/* Particles in the widest gaps first, spread over the surface, until their number is right. */
+static mps_status fill_holes(mps__samples *s)
 {
-    const double dp = s->shape->dp, wanted = s->surface / mps_pow(dp, s->shape->dim - 1);
-    for (double distance = widest; distance > narrowest; distance -= 0.02) {
-        mps__buckets_free(&s->wall);
-        MPS__TRY(mps__buckets_init(&s->wall, s->context, s->shape->dim, lo, hi, dp));
-        for (int32_t feature = MPS__CORNER; feature <= MPS__FACE; feature++)
-            for (int32_t odd = 0; odd < (s->shape->dim == 3 || feature < MPS__FACE ? ODD : 1);
-                 odd++)
-                MPS__TRY(take_vertices(s, feature, odd, distance));
-        if (s->shape->dim == 2) MPS__TRY(take_patches(s, distance));
-        if ((double)s->wall.count > 0.98 * wanted) break;
-    }
+    const int64_t n = s->contour->patches, step_of = spread_step(n);
+    for (double distance = widest; distance > hole[s->shape->dim - 2]; distance -= step)
+        for (int64_t k = 0, at = 0; k < n; k++, at = (at + step_of) % n) {
+            if ((double)s->wall.count >= s->wanted) return MPS_OK;
+            MPS__TRY(take_patch(s, at, distance));
+        }
     return MPS_OK;
 }
 
@@ -180,9 +238,13 @@ static void look_behind(mps__samples *s, int64_t i)
 
 mps_status mps__samples_walls(mps__samples *s, const double *lo, const double *hi)
 {
-    s->surface = surface_of(s);
+    find_surface(s);
     MPS__TRY(thin_out(s, lo, hi));
     for (int k = 0; k < SWEEPS; k++) MPS__TRY(sweep(s, lo, hi));
+    for (int round = 0; round < ROUNDS && (double)s->wall.count < least * s->wanted; round++) {
+        MPS__TRY(fill_holes(s));
+        for (int k = 0; k < SWEEPS; k++) MPS__TRY(sweep(s, lo, hi));
+    }
     MPS__TRY(share_area(s));
     for (int64_t i = 0; i < s->wall.count; i++) look_behind(s, i);
     return mps__buckets_init(&s->dummy, s->context, s->shape->dim, lo, hi, s->shape->dp);

@@ -17,6 +17,7 @@ typedef struct mps__samples {
     int32_t *feature; /* [wall.count] MPS__CORNER, ... */
     double *area;     /* [3*wall.count] into the liquid */
     double surface;   /* area of the contour within keep_lo..keep_hi */
+    double wanted;    /* number of wall particles: surface over dp^(dim-1) */
     int64_t thin;     /* wall particles with less than 3 dp of solid behind them */
     double thin_at[3];
     int64_t feature_capacity;

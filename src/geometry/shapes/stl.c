@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* STL: binary is 80 bytes of anything, the number of triangles, 50 bytes for each; ASCII is words. A file whose length fits its number
- * of triangles is binary, whatever it begins with. */
+/* STL: binary is 80 bytes of anything, the number of triangles, 50 bytes for each; ASCII is words. A file without control characters is
+ * ASCII, whatever it begins with; a file as long as its number of triangles, or longer, is binary. */
 #include "stl.h"
 #include <errno.h>
 #include <math.h>
@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { NEWLINE = '\n', RETURN = '\r', END_OF_FILE = 26 /* of DOS */ };
 enum { HEADER = 84, RECORD = 50, WORD = 64, BLOCK = 1 << 16 };
 
 typedef struct file {
@@ -85,15 +86,21 @@ static mps_status parse_binary(mps__mesh *m, const file *f)
 
 static bool is_blank(unsigned char c)
 {
-    return c == ' ' || c == '\t' || c == '\r' || c == '\n' || c == '\f' || c == '\v';
+    return c == ' ' || (c >= '\t' && c <= '\r') || c == END_OF_FILE;
+}
+
+/* Lines end with LF, CR LF or CR. */
+static bool ends_line(const file *f, int64_t at)
+{
+    return f->bytes[at] == NEWLINE ||
+           (f->bytes[at] == RETURN && (at + 1 == f->size || f->bytes[at + 1] != NEWLINE));
 }
 
 /* The next word, at most WORD-1 characters of it; false at the end. */
 static bool next_word(file *f, char word[WORD])
 {
     int length = 0;
-    for (; f->at < f->size && is_blank(f->bytes[f->at]); f->at++)
-        f->line += f->bytes[f->at] == '\n';
+    for (; f->at < f->size && is_blank(f->bytes[f->at]); f->at++) f->line += ends_line(f, f->at);
     for (; f->at < f->size && !is_blank(f->bytes[f->at]); f->at++)
         if (length < WORD - 1) word[length++] = (char)f->bytes[f->at];
     word[length] = '\0';
@@ -102,7 +109,7 @@ static bool next_word(file *f, char word[WORD])
 
 static void skip_line(file *f)
 {
-    while (f->at < f->size && f->bytes[f->at] != '\n') f->at++;
+    while (f->at < f->size && !ends_line(f, f->at)) f->at++;
 }
 
 static bool same_word(const char *a, const char *b)
@@ -187,55 +194,90 @@ static mps_status parse_facet(mps__mesh *m, file *f)
     return expect(m, f, "endfacet");
 }
 
-/* "solid" name facets "endsolid" name, perhaps several times. */
-static mps_status parse_ascii(mps__mesh *m, file *f)
+/* "solid" name facets "endsolid" name, perhaps several times; the last "endsolid" may be missing. */
+static mps_status parse_ascii(mps__mesh *m, file *f, mps__stl_notes *notes)
 {
     char word[WORD];
     f->line = 1;
-    while (next_word(f, word)) {
-        if (!same_word(word, "solid")) return bad_word(m, f, word, "solid");
-        skip_line(f);
-        for (;;) {
-            next_word(f, word);
-            if (same_word(word, "endsolid")) break;
-            if (!same_word(word, "facet")) return bad_word(m, f, word, "facet");
+    for (bool within = false; next_word(f, word);) {
+        if (same_word(word, "solid") || (within && same_word(word, "endsolid"))) {
+            within = same_word(word, "solid");
+            notes->no_end = within;
+            skip_line(f);
+        } else if (!within || !same_word(word, "facet")) {
+            return bad_word(m, f, word, within ? "facet" : "solid");
+        } else {
             MPS__TRY(parse_facet(m, f));
         }
-        skip_line(f);
     }
     return MPS_OK;
 }
 
 /* ---- both ---- */
 
-static mps_status parse(mps__mesh *m, file *f)
+/* Bytes of a mark that says that a text is UTF-8. */
+static int64_t mark_of(const file *f)
 {
-    mps__context *c = m->context;
-    const int64_t count = f->size >= HEADER ? (int64_t)word_at(f->bytes + HEADER - 4) : 0;
-    const bool fits = f->size >= HEADER && f->size == HEADER + RECORD * count;
-    if (!fits && f->size >= 5 && memcmp(f->bytes, "solid", 5) == 0)
-        MPS__TRY(parse_ascii(m, f));
-    else if (f->size < HEADER)
+    return f->size >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+}
+
+/* The count of triangles of a binary file has a byte 0, as files have fewer than 16 million. */
+static bool is_text(const file *f)
+{
+    for (int64_t k = 0; k < f->size; k++)
+        if (f->bytes[k] < ' ' && !is_blank(f->bytes[k])) return false;
+    return true;
+}
+
+static bool begins_solid(const file *f)
+{
+    file words = {.bytes = f->bytes, .size = f->size, .at = f->at};
+    char word[WORD];
+    return next_word(&words, word) && same_word(word, "solid");
+}
+
+static mps_status no_stl(mps__context *c, const file *f, int64_t triangles)
+{
+    if (f->size > 1 && f->bytes[0] + f->bytes[1] == 0xff + 0xfe)
+        return mps__fail(c, MPS_E_IO, "\"%.200s\" is a text in UTF-16: save it as UTF-8", f->path);
+    if (f->size < HEADER)
         return mps__fail(c, MPS_E_IO,
                          "\"%.200s\" has %lld bytes: a binary STL file has at least %d, an ASCII "
                          "one begins with \"solid\"",
                          f->path, (long long)f->size, HEADER);
-    else if (!fits)
-        return mps__fail(
-            c, MPS_E_IO,
-            "\"%.200s\" has %lld bytes: as a binary STL file of %lld triangles it would have %lld",
-            f->path, (long long)f->size, (long long)count, HEADER + RECORD * (long long)count);
-    else
+    return mps__fail(c, MPS_E_IO,
+                     "\"%.200s\" has %lld bytes: a binary STL file of %lld triangles has %lld, an "
+                     "ASCII one begins with \"solid\" and has no control characters",
+                     f->path, (long long)f->size, (long long)triangles,
+                     HEADER + RECORD * (long long)triangles);
+}
+
+static mps_status parse(mps__mesh *m, file *f, mps__stl_notes *notes)
+{
+    mps__context *c = m->context;
+    const int64_t count = f->size >= HEADER ? (int64_t)word_at(f->bytes + HEADER - 4) : 0,
+                  tail = f->size - HEADER - RECORD * count;
+    f->at = mark_of(f);
+    if (f->size > 0 && is_text(f)) {
+        MPS__TRY(parse_ascii(m, f, notes));
+    } else if (f->size >= HEADER && tail >= 0) {
+        notes->tail = tail;
         MPS__TRY(parse_binary(m, f));
+    } else if (begins_solid(f)) {
+        MPS__TRY(parse_ascii(m, f, notes));
+    } else {
+        return no_stl(c, f, count);
+    }
     MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangles", f->path);
     return MPS_OK;
 }
 
-mps_status mps__stl_read(mps__mesh *m, const char *path)
+mps_status mps__stl_read(mps__mesh *m, const char *path, mps__stl_notes *notes)
 {
+    *notes = (mps__stl_notes){0};
     file f = {.path = path};
     mps_status status = load(m->context, &f);
-    if (status == MPS_OK) status = parse(m, &f);
+    if (status == MPS_OK) status = parse(m, &f, notes);
     mps__free(m->context, f.bytes);
     return status;
 }

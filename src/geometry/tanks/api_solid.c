@@ -7,6 +7,9 @@
 #include <math.h>
 #include <string.h>
 
+/* Widest gap of a surface that is closed [dp]. */
+static const double gap_share = 0.01;
+
 static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
 static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
 
@@ -149,25 +152,79 @@ static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
     }
 }
 
+static void tell_notes(mps__context *c, const char *path, const mps__stl_notes *n)
+{
+    if (n->tail > 0)
+        mps__log(c, MPS_LOG_WARNING, "\"%.200s\": %lld bytes behind the last triangle are ignored",
+                 path, (long long)n->tail);
+    if (n->no_end) mps__log(c, MPS_LOG_WARNING, "\"%.200s\" has no \"endsolid\" at its end", path);
+}
+
+static void tell_faults(mps__context *c, const char *path, const mps__mesh_faults *f,
+                        double tolerance)
+{
+    if (f->degenerate > 0)
+        mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path,
+                 (long long)f->degenerate);
+    if (f->twice > 0)
+        mps__log(c, MPS_LOG_WARNING,
+                 "\"%.200s\": %lld triangles are there twice: each is used once", path,
+                 (long long)f->twice);
+    if (f->joined > 0)
+        mps__log(c, MPS_LOG_WARNING,
+                 "\"%.200s\" has gaps of up to %.2g m: %lld point%s at open edges joined with a "
+                 "point nearby; gaps of up to %g m, 0.01 dp, are closed",
+                 path, f->gap, (long long)f->joined, f->joined == 1 ? " is" : "s are", tolerance);
+}
+
+/* What may be meant otherwise: thick walls, several tanks in one file, parts that overlap. */
+static mps_status tell_shells(const mps__mesh *m, const char *path, bool container)
+{
+    mps__context *c = m->context;
+    mps__mesh_shells s;
+    MPS__TRY(mps__mesh_find_shells(m, &s));
+    if (s.wrong > 0)
+        mps__log(c, MPS_LOG_WARNING,
+                 "\"%.200s\" encloses %.2g %% of its box not once, e.g. (%.4g, %.4g, %.4g) m %g "
+                 "times: surfaces overlap or cross; unite the parts before the export",
+                 path, 100 * (double)s.wrong / (double)s.places, s.wrong_at[0], s.wrong_at[1],
+                 s.wrong_at[2], s.times);
+    if (s.within > 0)
+        mps__log(c, MPS_LOG_WARNING,
+                 "\"%.200s\" has %lld closed surfaces, %lld of them within another one: %s is "
+                 "between them, e.g. between %.4g and %.4g m3%s",
+                 path, (long long)s.count, (long long)s.within,
+                 container ? "the liquid" : "the solid", s.inner, s.outer,
+                 container ? "; of a tank with thick walls export the inner surface alone" : "");
+    else if (s.count > 1)
+        mps__log(c, container ? MPS_LOG_WARNING : MPS_LOG_INFO,
+                 "\"%.200s\" has %lld closed surfaces apart from each other%s", path,
+                 (long long)s.count,
+                 container ? ": the level is that of all of them, and natural periods are those of "
+                             "one tank of the size of their box"
+                           : "");
+    return MPS_OK;
+}
+
 /* A closed surface whose normals look to the liquid, ready for distances. */
 static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, bool container)
 {
     mps__context *c = &sim->context;
     mps__mesh_faults f;
-    MPS__TRY(mps__mesh_weld(m, &f));
+    const double tolerance = gap_share * sim->world.setup.dp;
+    MPS__TRY(mps__mesh_weld(m, tolerance, &f));
     MPS__CHECK(c, m->elements > 0, "\"%.200s\" has no triangle with an area", path);
     MPS__CHECK(c, f.open == 0,
                "\"%.200s\" is not closed: %lld edges have no second triangle, the first is at (%g, "
-               "%g, %g) m",
-               path, (long long)f.open, f.open_at[0], f.open_at[1], f.open_at[2]);
+               "%g, %g) m; gaps of up to %g m, 0.01 dp, would be closed",
+               path, (long long)f.open, f.open_at[0], f.open_at[1], f.open_at[2], tolerance);
     MPS__CHECK(c, f.turned == 0,
                "\"%.200s\" is not oriented: at %lld edges a triangle is turned over, the first is "
                "at (%g, %g, %g) m",
                path, (long long)f.turned, f.turned_at[0], f.turned_at[1], f.turned_at[2]);
     const double volume = mps__mesh_volume(m);
-    if (f.degenerate > 0)
-        mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path,
-                 (long long)f.degenerate);
+    tell_faults(c, path, &f, tolerance);
+    MPS__TRY(tell_shells(m, path, container));
     if (volume < 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\" is inside out: turned over", path);
     if ((volume < 0) != container) mps__mesh_turn(m);
     return mps__mesh_finish(m);
@@ -202,6 +259,7 @@ mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, doubl
     char name[MPS__PART_NAME];
     double box[6];
     mps__mesh mesh;
+    mps__stl_notes notes;
     MPS__TRY(mps__solids_allowed(sim));
     MPS__TRY(mps__struct_in(&sim->context, "mps_stl", &s, sizeof s, stl));
     if (s.name == NULL) s.name = stl_defaults.name;
@@ -211,7 +269,8 @@ mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, doubl
     MPS__TRY(check_stl(sim, path, &s));
     s.name = name;
     mps__mesh_init(&mesh, &sim->context, 3);
-    mps_status status = mps__stl_read(&mesh, path);
+    mps_status status = mps__stl_read(&mesh, path, &notes);
+    if (status == MPS_OK) tell_notes(&sim->context, path, &notes);
     if (status == MPS_OK) status = add_mesh(sim, path, &s, &mesh, box);
     mps__mesh_free(&mesh);
     if (status == MPS_OK && built) memcpy(built, box, sizeof box);
@@ -224,11 +283,12 @@ static mps_status find_edges(mps_sim *sim, const char *path, const mps_stl *s, m
 {
     double lo[3], hi[3];
     mps__mesh_faults faults;
-    MPS__TRY(mps__stl_read(m, path));
+    mps__stl_notes notes;
+    MPS__TRY(mps__stl_read(m, path, &notes));
     place_mesh(m, s, lo, hi);
     MPS__CHECK(&sim->context, mps__finite(lo, 3) && mps__finite(hi, 3),
                "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
-    return mps__mesh_weld(m, &faults);
+    return mps__mesh_weld(m, gap_share * sim->world.setup.dp, &faults);
 }
 
 mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, double angle,

@@ -4,10 +4,13 @@
 #include "geometry.h"
 #include "sampling.h"
 #include <math.h>
+#include <mps/numbers.h>
 #include <string.h>
 
 /* How near to the surface no fluid is placed: the wall's half cell [dp]. */
 static const double half_cell = 0.5;
+/* Share by which the number of wall particles may differ from surface/dp^(dim-1). */
+static const double uneven = 0.1;
 
 /* What one call makes. */
 typedef struct work {
@@ -235,22 +238,60 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
     }
 }
 
+/* Whole cells across the box of the first solid along both horizontal axes, so that liquid fills it evenly from wall to wall; their height
+ * gives them the volume of a particle. */
+static void fit_cells(const work *w, double *h)
+{
+    const double dp = w->sim->world.setup.dp;
+    const int dim = w->sim->world.setup.dim;
+    h[0] = h[1] = h[2] = dp;
+    for (int d = 0; d < dim; d += 2) {
+        const double length = w->box.hi[d] - w->box.anchor[d], cells = round(length / dp);
+        if (cells >= 1 && fabs(length - cells * dp) > 1e-6 * dp) h[d] = length / cells;
+    }
+    h[1] = dp * (dp / h[0]) * (dp / h[2]);
+}
+
 /* The lattice of fills: the first solid's, made larger by each further one. A tank's stays. */
 static void extend_lattice(work *w)
 {
     mps_sim *sim = w->sim;
-    const double dp = sim->world.setup.dp;
+    double *h = sim->lattice_h;
     if (sim->has_tank && !sim->lattice_of_solids) return;
+    if (w->new_lattice) fit_cells(w, h);
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * dp,
+        const double hi = sim->lattice_lo[d] + (double)sim->lattice_cells[d] * h[d],
                      end = w->box.hi[d];
         if (w->new_lattice || w->box.anchor[d] < sim->lattice_lo[d])
             sim->lattice_lo[d] = w->box.anchor[d];
         sim->lattice_cells[d] = (int64_t)floor(
-            ((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / dp + 1e-6);
-        sim->lattice_h[d] = dp;
+            ((w->new_lattice ? end : fmax(end, hi)) - sim->lattice_lo[d]) / h[d] + 1e-6);
     }
     sim->has_tank = sim->lattice_of_solids = true;
+}
+
+/* Number of wall particles for the surface [dp^(dim-1)]: of a file that of its triangles, of which those that are nearer to each other than
+ * the cells of the contour may be missing in it. */
+static double wanted_walls(const work *w)
+{
+    const mps__samples *s = &w->samples;
+    const mps__contour_box *b = &w->box;
+    const double cell = mps_pow(w->shape.dp, w->shape.dim - 1);
+    bool whole = w->solid->shape.mesh != NULL && s->wanted * cell > (1 - 1e-6) * s->surface;
+    for (int d = 0; d < w->shape.dim; d++)
+        whole = whole && b->lo[d] > b->keep_lo[d] && b->hi[d] < b->keep_hi[d];
+    return whole ? mps__mesh_area(w->solid->shape.mesh) / cell : s->wanted;
+}
+
+static void report_count(const work *w)
+{
+    const double wanted = wanted_walls(w), count = (double)w->samples.wall.count;
+    if (fabs(count - wanted) <= fmax(uneven * wanted, 2)) return;
+    mps__log(&w->sim->context, MPS_LOG_WARNING,
+             "solid \"%s\" has %.0f wall particles where its surface has %.0f dp%s: its parts that "
+             "are thinner or closer to each other than dp are not resolved, and pressures beside "
+             "them are wrong; take a smaller dp or leave them out",
+             w->solid->name, count, wanted, w->shape.dim == 3 ? "2" : "");
 }
 
 static void report(const work *w)
@@ -266,6 +307,7 @@ static void report(const work *w)
                  "%g, %g) m: liquid on one side feels the other",
                  w->solid->name, 3 * w->shape.dp, (long long)s->thin, s->thin_at[0], s->thin_at[1],
                  s->thin_at[2]);
+    report_count(w);
 }
 
 static mps_status build(work *w)

@@ -56,7 +56,7 @@ export async function readGroups(data) {
         if (g.title.startsWith("Energy, change")) for (const s of g.series) if (s.name === "pe") s.values = s.values.map((v) => v === null ? null : v - s.values[0]);
         addReferences(g, data.references);
     }
-    return [...groups.values()];
+    return [...groups.values()].sort((a, b) => a.place === "main" && b.place === "main" ? a.plot - b.plot : 0); // sensors before the motion
 }
 
 // Known points join the times of the plot: rows of the union, null where a curve has no value.
@@ -73,6 +73,79 @@ function addReferences(g, references) {
     mine.forEach((r, k) => g.series.push({name: r.label, label: r.label, unit: g.unit, about: "", reference: true, line: r.line,
         values: all.map((t) => points[k].has(t) ? points[k].get(t) : undefined)}));
     g.t = all;
+}
+
+// ---- what a reader takes along ----
+
+function save(name, blob) {
+    const a = document.createElement("a");
+    a.href = URL.createObjectURL(blob);
+    a.download = name;
+    a.click();
+    setTimeout(() => URL.revokeObjectURL(a.href), 1000);
+}
+
+const fileName = (title, end) => `${title.replace(/[^A-Za-z0-9]+/g, "_").replace(/^_+|_+$/g, "").slice(0, 60) || "data"}.${end}`;
+
+// A field of CSV; one that a spreadsheet would take for a formula is a text.
+export const field = (text) => {
+    const own = /^[=+\-@\t]/.test(text) && !Number.isFinite(Number(text)) ? `'${text}` : text;
+    return /[",\n]/.test(own) ? `"${own.replaceAll('"', '""')}"` : own;
+};
+const csv = (rows) => new Blob([rows.map((row) => row.map((v) => field(String(v))).join(",")).join("\n") + "\n"], {type: "text/csv"});
+
+function saveButtons(list) {
+    const group = document.createElement("span");
+    group.className = "save";
+    for (const [text, about, act] of list) {
+        const b = document.createElement("button");
+        b.type = "button";
+        b.textContent = text;
+        b.title = `Save as ${text}: ${about}`;
+        b.addEventListener("click", act);
+        group.append(b);
+    }
+    return group;
+}
+
+// In SI, as in probes.csv; of a long run the points that the page has.
+function saveCurves(g) {
+    const rows = [["t[s]", ...g.series.map((s) => s.unit && s.unit !== "%" ? `${s.name}[${s.unit}]` : s.name)]];
+    g.t.forEach((t, i) => rows.push([t, ...g.series.map((s) => s.values[i] ?? "nan")]));
+    save(fileName(g.title, "csv"), csv(rows));
+}
+
+// The plot with its title above and its legend below.
+function savePicture(chart) {
+    const {g, plot, head} = chart, from = plot.ctx.canvas, scale = from.width / plot.width, line = 20 * scale, out = document.createElement("canvas"), c = out.getContext("2d");
+    const shown = g.series.map((s, k) => [s, k]).filter(([, k]) => !chart.hidden.has(k));
+    out.width = from.width;
+    out.height = from.height + line * (shown.length + 2);
+    c.fillStyle = tokens("--surface");
+    c.fillRect(0, 0, out.width, out.height);
+    c.drawImage(from, 0, 1.5 * line);
+    c.font = `${14 * scale}px system-ui, sans-serif`;
+    c.fillStyle = tokens("--ink");
+    c.fillText(head, 8 * scale, line);
+    shown.forEach(([s, k], i) => {
+        const y = from.height + line * (i + 2.2);
+        c.fillStyle = chart.colour(s, k);
+        c.fillRect(8 * scale, y - 6 * scale, 20 * scale, 3 * scale);
+        c.fillStyle = tokens("--ink");
+        c.fillText(s.label, 36 * scale, y);
+    });
+    out.toBlob((blob) => save(fileName(g.title, "png"), blob));
+}
+
+// A button for each table of the page.
+export function exportTables() {
+    for (const table of document.querySelectorAll(".scroll table, details > table")) {
+        const box = table.closest(".scroll") ?? table, name = box.getAttribute("aria-label") ?? box.closest("details")?.querySelector("summary")?.textContent ?? "table";
+        const rows = () => [...table.rows].map((r) => [...r.cells].map((c) => c.textContent.replaceAll("\u2212", "-").trim()));
+        const buttons = saveButtons([["CSV", name, () => save(fileName(name, "csv"), csv(rows()))]]);
+        if (box === table) table.before(buttons);
+        else box.prepend(buttons); // a region of its own, which may be a cell of a grid
+    }
 }
 
 export class Charts {
@@ -120,7 +193,8 @@ export class Charts {
         }).join("; "));
         box.append(head, room, legend);
         place.append(box);
-        const chart = {g, box, room, legend, factor, p, most, hidden: new Set()};
+        head.append(saveButtons([["CSV", "table of the curves", () => saveCurves(g)], ["PNG", "picture of the plot", () => savePicture(chart)]]));
+        const chart = {g, box, room, legend, factor, p, most, hidden: new Set(), head: head.firstChild.textContent, colour: (s, k) => this.colour(g, s, k)};
         chart.plot = new uPlot(this.options(chart), [g.t, ...g.series.map((s) => s.values)], room);
         chart.line = document.createElement("div");
         chart.line.className = "now";
@@ -148,7 +222,7 @@ export class Charts {
     options(chart) {
         const {g, factor, room} = chart, ink = tokens("--ink-2"), grid = tokens("--line"), axis = {stroke: ink, grid: {stroke: grid, width: 1}, ticks: {stroke: grid, width: 1}, font: "12px system-ui, sans-serif"};
         return {
-            width: Math.max(200, room.clientWidth), height: 190, legend: {show: false}, padding: [8, 12, 0, 0],
+            width: Math.max(200, room.clientWidth), height: 204, legend: {show: false}, padding: [8, 12, 0, 0],
             cursor: {sync: {key: "time", setSeries: false}, drag: {x: true, y: false}, points: {size: 7}, bind: {dblclick: () => () => { this.setRange(null); return null; }}},
             scales: {x: {time: false}, y: {range: (u, lo, hi) => this.yRange(u, chart)}},
             series: [{}, ...g.series.map((s, k) => ({
@@ -156,7 +230,7 @@ export class Charts {
                 points: s.reference && !s.line ? {show: true, size: 8, width: 1.6, fill: tokens("--surface")} : {show: false},
                 paths: s.reference && !s.line ? () => null : undefined,
             }))],
-            axes: [{...axis, values: (u, at) => at.map((v) => rounded(v)), label: undefined, size: 30},
+            axes: [{...axis, values: (u, at) => at.map((v) => rounded(v)), label: "t [s]", labelSize: 18, labelGap: 0, labelFont: axis.font, size: 28},
                 {...axis, size: 58, values: (u, at) => at.map((v) => rounded(Number((v * factor).toPrecision(10))))}],
             hooks: {
                 setScale: [() => this.placeTime(chart)],

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Puts the page together: film, curves, sketch, one time for all.
 import { Frames, fromBase64, inflate } from "./decode.js";
-import { Charts, nearest, prefix, quantity, readGroups, rounded } from "./curves.js";
+import { Charts, exportTables, nearest, prefix, quantity, readGroups, rounded } from "./curves.js";
 import { View, kinds, rooms } from "./view.js";
 
 const byId = (id) => document.getElementById(id), json = (id) => JSON.parse(byId(id)?.textContent ?? "null");
@@ -15,7 +15,7 @@ function isDark() {
 }
 
 function applyTheme() {
-    byId("theme").setAttribute("aria-pressed", String(isDark()));
+    byId("theme").textContent = isDark() ? "Light" : "Dark"; // what it changes to
     const hex = getComputedStyle(document.documentElement).getPropertyValue("--stage").trim();
     if (state.view) {
         state.view.background = [1, 3, 5].map((k) => parseInt(hex.slice(k, k + 2), 16) / 255);
@@ -91,6 +91,9 @@ function fillPaces() {
     });
 }
 
+// Of a tank that moves the speed has a frame.
+const speedIn = () => state.data.speed_in ? ` in ${state.data.speed_in}` : "";
+
 function drawScale() {
     const {data, view} = state, mode = byId("colour").value, room = byId("scale"), maps = mode === "speed" ? 1 : Math.min(3, data.phases);
     const css = (c) => `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
@@ -119,7 +122,7 @@ function drawScale() {
     }
     const s = data[mode], unit = mode === "speed" ? "m/s" : "Pa", label = document.createElement("b"), bars = document.createElement("div");
     const [factor, p] = prefix(Math.max(Math.abs(s.lo), s.hi), unit);
-    label.textContent = `${mode} [${p}${unit}]`;
+    label.textContent = `${mode}${mode === "speed" ? speedIn() : ""} [${p}${unit}]`;
     bars.className = "bars";
     for (let m = 0; m < maps; m++) {
         const bar = document.createElement("i");
@@ -144,26 +147,61 @@ function decodeValue(code, s) {
     return code <= 224 ? s.lo + (s.hi - s.lo) * (code - 1) / 223 : s.hi + (s.most - s.hi) * share * share;
 }
 
+// An element of SVG. Texts are set as texts, never as markup.
+function element(name, attributes, text = "") {
+    const e = document.createElementNS("http://www.w3.org/2000/svg", name);
+    for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+    e.textContent = text;
+    return e;
+}
+
+// Axes of the tank at its lower corner and the bow, in 3-D: a view alone does not show which side is which.
+function axisMarks(at) {
+    const {lo, hi} = state.view.box, out = [], size = 0.16 * Math.max(...lo.map((v, d) => hi[d] - v));
+    const arrow = (from, way, length, text, kind) => {
+        const a = at(from), b = at(from.map((v, d) => v + length * way[d]));
+        if (!a || !b) return;
+        out.push(element("line", {class: `axis ${kind}`, x1: a[0], y1: a[1], x2: b[0], y2: b[1]}));
+        const far = Math.hypot(b[0] - a[0], b[1] - a[1]) || 1;
+        out.push(element("text", {class: `axis ${kind}`, x: b[0] + 10 * (b[0] - a[0]) / far, y: b[1] + 10 * (b[1] - a[1]) / far + 4}, text));
+    };
+    ["x", "y", "z"].forEach((text, k) => arrow(lo, [0, 1, 2].map((d) => Number(d === k)), size, text, "own"));
+    if (state.data.bow) {
+        const middle = lo.map((v, d) => (v + hi[d]) / 2 + state.data.bow[d] * (hi[d] - v) / 2);
+        middle[1] = hi[1];
+        arrow(middle, state.data.bow, size, "bow", "bow");
+    }
+    return out;
+}
+
+// Mark and name of a sensor.
+function sensorMarks(c, p) {
+    const chosen = state.charts?.chosen === c.name ? " chosen" : "", left = p[0] > byId("screen").clientWidth - 60;
+    return [element("circle", {class: `probe${chosen}`, "data-column": c.name, cx: p[0], cy: p[1], r: 5}),
+        element("text", {class: `name${chosen}`, "data-column": c.name, x: p[0] + (left ? -9 : 9), y: p[1] + 4, "text-anchor": left ? "end" : "start"}, c.name)];
+}
+
 // Ring about the particle that is followed, and marks of the sensors.
 function drawMarks() {
     const {view, data} = state, svg = byId("marks"), scale = devicePixelRatio || 1, out = [];
     const at = (X) => { const p = view.project(X); return p ? [p[0] / scale, p[1] / scale] : null; };
+    if (data.dim === 3) out.push(...axisMarks(at));
     if (byId("marks-on").checked) {
         for (const c of state.sensors) {
             const p = at([c.at[0], c.at[1], data.dim === 3 ? c.at[2] : 0]);
-            if (p) out.push(`<circle class="probe${state.charts?.chosen === c.name ? " chosen" : ""}" data-column="${c.name.replace(/[&<>"]/g, "")}" cx="${p[0]}" cy="${p[1]}" r="5"/>`);
+            if (p) out.push(...sensorMarks(c, p));
         }
     }
     if (state.picked >= 0) {
         const X = view.place(state.picked), p = view.present(state.picked) ? at(X) : null, {value, values} = view.frames, k = view.frame * values * data.count + state.picked;
-        if (p) out.push(`<circle class="ring" cx="${p[0]}" cy="${p[1]}" r="9"/>`);
+        if (p) out.push(element("circle", {class: "ring", cx: p[0], cy: p[1], r: 9}));
         const beside = values > 2 && value[k + 2 * data.count] > 0 ? `, beside pocket ${value[k + 2 * data.count]}` : "";
         const name = state.phase[state.picked] === 255 ? "Part of a body" : `Particle ${state.ids[state.picked]}`;
         const less = value[k] === 1 ? " or less" : ""; // suction in liquid or gas is below the scale
-        byId("picked").textContent = p ? `${name}: speed ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}${less}${beside}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m. Escape ends this.` : `${name} is not in this frame.`;
+        byId("picked").textContent = p ? `${name}: speed${speedIn()} ${quantity(decodeValue(value[k + data.count], data.speed), "m/s")}, pressure ${quantity(decodeValue(value[k], data.pressure), "Pa")}${less}${beside}, at (${X.slice(0, data.dim).map(rounded).join(", ")}) m in the tank. Escape ends this.` : `${name} is not in this frame.`;
     } else byId("picked").textContent = "";
     svg.setAttribute("viewBox", `0 0 ${view.canvas.width / scale} ${view.canvas.height / scale}`); // on paper it has another size
-    svg.innerHTML = out.join("");
+    svg.replaceChildren(...out);
 }
 
 function fitCanvas() {
@@ -329,6 +367,7 @@ async function openCurves() {
     for (const d of document.querySelectorAll("details")) d.addEventListener("toggle", () => state.charts.setTime(state.charts.t));
     for (const b of document.querySelectorAll(".moment")) b.addEventListener("click", () => setTime(Number(b.dataset.time)));
     bindSketch();
+    exportTables();
     document.documentElement.dataset.curves = "all";
 }
 

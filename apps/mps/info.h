@@ -1,0 +1,26 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* What a file is, from its own bytes. */
+#ifndef MPS_APPS_INFO_H
+#define MPS_APPS_INFO_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+
+enum { HEAD = 4096, TAIL = 4096 /* bytes that some programs write behind the triangles */ };
+
+/* The beginning of a file. */
+typedef struct head {
+    const char *path;
+    FILE *file;
+    long long size;
+    size_t count;
+    char text[HEAD + 1];
+} head;
+
+/* Whether the beginning holds text: no byte that only binary files have. */
+bool is_text(const head *h);
+/* A surface of triangles (STL). @return false: it is something else */
+bool info_surface(const head *h);
+
+#endif

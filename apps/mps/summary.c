@@ -1,0 +1,108 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "summary.h"
+#include "constants.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_SIZE = 4096, LINE_SIZE = 4096 };
+
+/* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end of the line. */
+static bool find_text(const char *folder, const char *wanted, int most, char out[LINE_SIZE])
+{
+    char path[PATH_SIZE], line[LINE_SIZE];
+    bool found = false;
+    const size_t length = strlen(wanted);
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    FILE *in = fopen(path, "r");
+    while (in && !found && fgets(line, sizeof line, in)) {
+        const char *at = line + strspn(line, " ");
+        found = at - line <= most && strncmp(at, wanted, length) == 0;
+        if (found) snprintf(out, LINE_SIZE, "%s", at + length);
+    }
+    if (in) fclose(in);
+    return found;
+}
+
+static bool find_line(const char *folder, const char *key, char out[LINE_SIZE])
+{
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "\"%s\": ", key);
+    return find_text(folder, wanted, 2, out);
+}
+
+double summary_T1(const char *folder)
+{
+    char line[LINE_SIZE], *end;
+    if (!find_text(folder, "{\"key\": \"T1\", \"value\": \"", 4, line)) return NAN;
+    const double value = strtod(line, &end);
+    return end > line ? value : NAN;
+}
+
+/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not end */
+static const char *unquote(const char *from, char out[SUMMARY_TEXT])
+{
+    size_t used = 0;
+    for (; *from && *from != '"'; from++) {
+        const char c = *from == '\\' && from[1] ? *++from : *from;
+        if (used + 1 < SUMMARY_TEXT) out[used++] = c;
+    }
+    out[used] = '\0';
+    return *from ? from + 1 : NULL;
+}
+
+bool summary_text(const char *folder, const char *key, char out[SUMMARY_TEXT])
+{
+    char line[LINE_SIZE];
+    return find_line(folder, key, line) && line[0] == '"' && unquote(line + 1, out);
+}
+
+bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
+                   char value[SUMMARY_TEXT])
+{
+    static const char begin[] = "    {\"key\": \"", middle[] = ", \"value\": \"";
+    char path[PATH_SIZE], line[LINE_SIZE];
+    bool found = false;
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    FILE *in = fopen(path, "r");
+    while (in && !found && fgets(line, sizeof line, in)) {
+        if (strncmp(line, begin, sizeof begin - 1) != 0 || index-- > 0) continue;
+        const char *at = unquote(line + sizeof begin - 1, key);
+        found = at && strncmp(at, middle, sizeof middle - 1) == 0 &&
+                unquote(at + sizeof middle - 1, value);
+        break;
+    }
+    if (in) fclose(in);
+    return found;
+}
+
+double summary_number(const char *folder, const char *key)
+{
+    char line[LINE_SIZE], *end;
+    if (!find_line(folder, key, line)) return NAN;
+    const double value = strtod(line, &end);
+    return end > line ? value : NAN;
+}
+
+bool summary_is_done(const char *folder)
+{
+    char status[SUMMARY_TEXT];
+    return summary_text(folder, "status", status) && strcmp(status, "ok") == 0;
+}
+
+bool summary_unfinished(const char *folder, double t, char *out, size_t size)
+{
+    char status[SUMMARY_TEXT];
+    const double reached = summary_number(folder, "t_end"), until = summary_number(folder, "until");
+    out[0] = '\0';
+    if (!summary_text(folder, "status", status) || strcmp(status, "ok") == 0) return false;
+    const bool part = strcmp(status, "unfinished") == 0 || strcmp(status, "MPS_W_STOPPED") == 0;
+    int used = snprintf(out, size, "%s, at t = %.5g s", part ? "unfinished" : status,
+                        isnan(t) ? reached : t);
+    if (!isnan(until)) used += snprintf(out + used, size - (size_t)used, " of %.5g s", until);
+    if (part)
+        snprintf(out + used, size - (size_t)used,
+                 "; if it is not in progress, 'mps resume %s' continues it", folder);
+    return true;
+}

@@ -1,0 +1,141 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Shells of a closed surface: parts that share no point. Whether one is within another, and how often places are enclosed. */
+#include "mesh.h"
+#include "angles.h"
+#include <math.h>
+#include <string.h>
+
+enum { SHELLS = 32, PLACES_LEAST = 64, PLACES_MOST = 256 };
+static const double angles_most = 1e5; /* that are summed up for the places */
+
+static const double *corner_at(const mps__mesh *m, int64_t e, int k)
+{
+    return m->x + 3 * (int64_t)m->corner[3 * e + k];
+}
+
+/* Solid angle of a triangle over 4 pi (van Oosterom and Strackee 1983). */
+static double angle_of(const mps__mesh *m, int64_t e, const double x[3])
+{
+    double a[3][3], length[3];
+    for (int k = 0; k < 3; k++) {
+        const double *c = corner_at(m, e, k);
+        for (int d = 0; d < 3; d++) a[k][d] = c[d] - x[d];
+        length[k] = sqrt(mps__dot(a[k], a[k], 3));
+    }
+    const double volume = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) +
+                          a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
+                          a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+    const double below = length[0] * length[1] * length[2] + mps__dot(a[0], a[1], 3) * length[2] +
+                         mps__dot(a[1], a[2], 3) * length[0] + mps__dot(a[2], a[0], 3) * length[1];
+    return mps__atan2(volume, below) / (2 * MPS__PI);
+}
+
+/* How often one shell, or all of them (-1), encloses a place. */
+static double winding(const mps__mesh *m, const int32_t *shell, int32_t which, const double x[3])
+{
+    double sum = 0;
+    for (int64_t e = 0; e < m->elements; e++)
+        if (which < 0 || shell[m->corner[3 * e]] == which) sum += angle_of(m, e, x);
+    return sum;
+}
+
+static int32_t root_of(int32_t *parent, int32_t i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+
+/* Union-find over the triangles. @param shell  [points] out: number of the shell of each point @return how many shells */
+static int64_t number_shells(const mps__mesh *m, int32_t *parent, int32_t *shell)
+{
+    int32_t count = 0;
+    for (int64_t i = 0; i < m->points; i++) {
+        parent[i] = (int32_t)i;
+        shell[i] = -1;
+    }
+    for (int64_t k = 0; k < 3 * m->elements; k++) {
+        const int32_t a = root_of(parent, m->corner[k]), b = root_of(parent, m->corner[k - k % 3]);
+        parent[a < b ? b : a] = a < b ? a : b;
+    }
+    for (int64_t k = 0; k < 3 * m->elements; k++) {
+        int32_t *first = &shell[root_of(parent, m->corner[k])];
+        if (*first < 0) *first = count++;
+    }
+    for (int64_t i = 0; i < m->points; i++) shell[i] = shell[root_of(parent, (int32_t)i)];
+    return count;
+}
+
+/* Volumes of the first shells, and a point of each. */
+static void measure(const mps__mesh *m, const int32_t *shell, double *volume, int32_t *point)
+{
+    for (int64_t e = 0; e < m->elements; e++) {
+        const int32_t s = shell[m->corner[3 * e]];
+        double a[3][3];
+        if (s >= SHELLS) continue;
+        point[s] = m->corner[3 * e];
+        for (int k = 0; k < 3; k++)
+            for (int d = 0; d < 3; d++) a[k][d] = corner_at(m, e, k)[d] - m->x[d];
+        volume[s] += (a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) +
+                      a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
+                      a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0])) /
+                     6;
+    }
+}
+
+/* The first shell that is within another. */
+static void find_nested(const mps__mesh *m, const int32_t *shell, mps__mesh_shells *out)
+{
+    double volume[SHELLS] = {0};
+    int32_t point[SHELLS] = {0};
+    const int32_t count = out->count < SHELLS ? (int32_t)out->count : SHELLS;
+    measure(m, shell, volume, point);
+    for (int32_t inner = 0; inner < count && out->count <= SHELLS; inner++)
+        for (int32_t outer = 0; outer < count; outer++) {
+            if (inner == outer ||
+                fabs(winding(m, shell, outer, m->x + 3 * (int64_t)point[inner])) < 0.5)
+                continue;
+            if (out->within++ > 0) break;
+            out->inner = fabs(volume[inner]);
+            out->outer = fabs(volume[outer]);
+            break;
+        }
+}
+
+/* Places of the box, of an additive recurrence, that are not enclosed 0 or 1 times. */
+static void find_overlaps(const mps__mesh *m, double sign, mps__mesh_shells *out)
+{
+    static const double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
+    for (int64_t k = 0; k < 3 * m->points; k++) {
+        lo[k % 3] = fmin(lo[k % 3], m->x[k]);
+        hi[k % 3] = fmax(hi[k % 3], m->x[k]);
+    }
+    out->places = (int64_t)fmin(PLACES_MOST,
+                                fmax(PLACES_LEAST, angles_most / (double)(m->elements + 1)));
+    for (int64_t n = 0; n < out->places; n++) {
+        double x[3];
+        for (int d = 0; d < 3; d++) {
+            const double q = ((double)n + 0.5) * step[d];
+            x[d] = lo[d] + (q - floor(q)) * (hi[d] - lo[d]);
+        }
+        const double times = round(sign * winding(m, NULL, -1, x));
+        if (times == 0 || times == 1 || out->wrong++ > 0) continue;
+        out->times = times;
+        memcpy(out->wrong_at, x, sizeof x);
+    }
+}
+
+mps_status mps__mesh_find_shells(const mps__mesh *m, mps__mesh_shells *out)
+{
+    *out = (mps__mesh_shells){0};
+    int32_t *parent = mps__alloc(m->context, m->points, sizeof *parent),
+            *shell = mps__alloc(m->context, m->points, sizeof *shell);
+    if (parent && shell) {
+        out->count = number_shells(m, parent, shell);
+        find_nested(m, shell, out);
+        find_overlaps(m, mps__mesh_volume(m) < 0 ? -1 : 1, out);
+    }
+    mps__free(m->context, parent);
+    mps__free(m->context, shell);
+    return parent && shell ? MPS_OK : MPS_E_NOMEM;
+}

@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+/* Numbers and letters as in the locale "C", whatever setlocale() of the application says:
+ * "1.5", never "1,5". The build includes this header in front of each source file of libmps and
+ * libmps_case. From there on printf(), strtod() and the functions that depend on the letters of
+ * a locale are the ones below, so that no file has to remember it. The locale of the
+ * application stays as it is: it is replaced during a single call only, in plain.c, and in the
+ * calling thread only. Callbacks of the application have their own locale. */
+#ifndef MPS_TEXT_PLAIN_H
+#define MPS_TEXT_PLAIN_H
+
+#include <ctype.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <strings.h>
+
+/* As those of C. Where the locale "C" cannot be had: -1 with errno ENOMEM, and an empty text. */
+int mps__vsnprintf(char *buffer, size_t size, const char *format, va_list list)
+    __attribute__((format(printf, 3, 0)));
+int mps__snprintf(char *buffer, size_t size, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
+int mps__vfprintf(FILE *file, const char *format, va_list list)
+    __attribute__((format(printf, 2, 0)));
+int mps__fprintf(FILE *file, const char *format, ...) __attribute__((format(printf, 2, 3)));
+int mps__printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
+int mps__sscanf(const char *text, const char *format, ...) __attribute__((format(scanf, 2, 3)));
+/* As strtod(). Where the locale "C" cannot be had: 0, *end is `text`. */
+double mps__strtod(const char *text, char **end);
+
+/* Letters, digits and blanks of ASCII; other bytes are none. */
+int mps__lower(int c);
+int mps__upper(int c);
+int mps__is_digit(int c);
+int mps__is_letter(int c);
+int mps__is_blank(int c);
+/* As strcasecmp(): 'I' and 'i' are one letter, in Turkish too. */
+int mps__compare_letters(const char *a, const char *b, size_t most);
+
+/* Bytes of the character of UTF-8 at `text`; 0: there is none, as at a byte of Latin-1. */
+size_t mps__character(const char *text);
+/* What a text of JSON has for the first character of `text`, '<' escaped too, so that no
+ * "</script>" ends an element of a page. Bytes that are no UTF-8, as of the name of a file,
+ * become U+FFFD.
+ * @return bytes of `text`, 1 or more */
+size_t mps__json_character(const char *text, char out[8]);
+
+#undef vsnprintf
+#undef snprintf
+#undef vfprintf
+#undef fprintf
+#undef printf
+#undef sscanf
+#undef tolower
+#undef toupper
+#undef isdigit
+#undef isalpha
+#undef isspace
+#undef isalnum
+#define vsnprintf            mps__vsnprintf
+#define snprintf             mps__snprintf
+#define vfprintf             mps__vfprintf
+#define fprintf              mps__fprintf
+#define printf(...)          mps__printf(__VA_ARGS__) /* not that of an attribute */
+#define sscanf               mps__sscanf
+#define strtod               mps__strtod
+#define tolower              mps__lower
+#define toupper              mps__upper
+#define isdigit              mps__is_digit
+#define isalpha              mps__is_letter
+#define isspace              mps__is_blank
+#define isalnum(c)           (mps__is_letter(c) || mps__is_digit(c))
+#define strcasecmp(a, b)     mps__compare_letters(a, b, SIZE_MAX)
+#define strncasecmp(a, b, n) mps__compare_letters(a, b, n)
+
+#endif

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#include "run_file.h"
+#include <errno.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* Both without links. */
+static bool is_below(const char *folder, const char *path)
+{
+    const size_t length = strlen(folder);
+    return strncmp(folder, path, length) == 0 &&
+           (path[length] == '/' || (length > 0 && folder[length - 1] == '/'));
+}
+
+char *mps__run_name(const char *folder, const char *path, const char **why)
+{
+    char *real = realpath(path, NULL), *inside = real ? realpath(folder, NULL) : NULL;
+    if (inside && is_below(inside, real)) {
+        free(inside);
+        return real;
+    }
+    const int number = errno;
+    *why = NULL;
+    if (inside)
+        *why = "it leads out of the folder of the run, as a link or by its name; "
+               "copy the file into the folder";
+    free(inside);
+    free(real);
+    errno = *why ? EACCES : number;
+    return NULL;
+}
+
+/* Not blocking: a pipe that nothing writes to would wait for ever. */
+static FILE *open_regular(const char *path, int flags, const char **why)
+{
+    struct stat status;
+    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | flags);
+    if (fd < 0) return NULL;
+    FILE *file = NULL;
+    if (fstat(fd, &status) == 0) {
+        if (S_ISREG(status.st_mode)) {
+            file = fdopen(fd, "rb");
+        } else {
+            errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
+            if (errno == EINVAL) *why = "it is no regular file";
+        }
+    }
+    const int number = errno;
+    if (!file) close(fd);
+    errno = number;
+    return file;
+}
+
+FILE *mps__run_open(const char *folder, const char *path, const char **why)
+{
+    *why = NULL;
+    if (!folder) return open_regular(path, 0, why);
+    char *real = mps__run_name(folder, path, why);
+    FILE *file = real ? open_regular(real, O_NOFOLLOW, why) : NULL;
+    const int number = errno;
+    free(real);
+    errno = number;
+    return file;
+}
+
+FILE *mps__run_create(const char *path, const char *mode)
+{
+    if (unlink(path) != 0 && errno != ENOENT) return NULL;
+    const int fd = open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    FILE *file = fd < 0 ? NULL : fdopen(fd, mode);
+    const int number = errno;
+    if (fd >= 0 && !file) {
+        close(fd);
+        unlink(path);
+    }
+    errno = number;
+    return file;
+}
