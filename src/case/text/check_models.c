@@ -232,17 +232,18 @@ static bool has_text(const tree_node *node, const char *text)
 }
 
 /* A plug-in of which the case uses nothing is mostly a line that is missing. */
-static void warn_of_unused(mps_case *c, const tree_node *const *used, int count)
+enum { USERS = 5 }; // keys that may name what a plug-in has
+static void warn_of_unused(mps_case *c, const tree_node *const used[USERS])
 {
-    static const char *const key[] = {"use: [", "run: {solver: ", "run: {preconditioner: ",
-                                      "body: {load: {plugin: ", "motion: {plugin: "},
-                             *const end[] = {"]", "}", "}", "}}", "}"};
+    static const char *const key[USERS] = {"use: [", "run: {solver: ", "run: {preconditioner: ",
+                                           "body: {load: {plugin: ", "motion: {plugin: "},
+                             *const end[USERS] = {"]", "}", "}", "}}", "}"};
     for (int32_t k = 0; k < c->plugins; k++) {
         mps_plugin_item item;
         mps_plugin_item_init(&item, sizeof item);
         bool any = false;
         for (int32_t i = 0; mps_plugin_item_get(c->plugin[k].file, i, &item) == MPS_OK; i++)
-            for (int n = 0; n < count; n++) any = any || has_text(used[n], item.name);
+            for (int n = 0; n < USERS; n++) any = any || has_text(used[n], item.name);
         if (any || mps_plugin_item_get(c->plugin[k].file, 0, &item) != MPS_OK) continue;
         mps__case_say(c, c->plugin[k].at, true,
                       "plugins: nothing of this plug-in is used; e.g. '%s%s%s' uses it",
@@ -301,8 +302,8 @@ void mps__check_models(mps_case *c, tree_node *root)
     check_drive(c, names[MOTION], MPS_PLUGIN_MOTION);
     if (names[SETTINGS] && names[SETTINGS]->kind == TREE_MAP)
         for (tree_node *n = names[SETTINGS]->first; n; n = n->next) check_setting(c, sim, n);
-    const tree_node *used[] = {names[USE], names[SOLVER], names[PRECONDITIONER], names[LOAD],
-                               names[MOTION]};
-    warn_of_unused(c, used, sizeof used / sizeof *used);
+    const tree_node *const used[USERS] = {names[USE], names[SOLVER], names[PRECONDITIONER],
+                                          names[LOAD], names[MOTION]};
+    warn_of_unused(c, used);
     mps_sim_destroy(sim);
 }
