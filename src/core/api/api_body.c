@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/body.h. */
+/* Public functions of mps/body.h. */
 #include "api_motion.h"
 #include "step.h"
 #include <mps/body.h>
@@ -44,7 +44,8 @@ static mps_status check_array(const mps__world *w, const char *name, const doubl
     return MPS_OK;
 }
 
-/* A real body turns about any axis with a moment >= 0: all principal minors are, but for rounding. */
+/* A physical body has non-negative moments about every axis: all principal minors are non-negative,
+ * except for rounding. */
 static mps_status check_inertia(const mps__world *w, const double *i)
 {
     double size = 0;
@@ -91,7 +92,7 @@ static mps_status check_body(const mps__world *w, const mps_body *b)
 
 /* ---- the body ---- */
 
-/* It begins with the rates that the tank has, and with an acceleration that is not known. */
+/* Initialise with the velocities of the tank and an unknown acceleration. */
 static void begin(mps__world *w)
 {
     mps__body *b = &w->body;
@@ -134,7 +135,7 @@ mps_status mps_body_set(mps_sim *sim, const mps_body *body)
     return MPS_OK;
 }
 
-/* Energies of the middle of the last step. */
+/* Energies at the middle of the last step. */
 static void put_energies(const mps__world *w, mps_body_report *out)
 {
     const mps__body *b = &w->body;

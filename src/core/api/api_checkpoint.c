@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints of the public interface. */
+/* Public functions of checkpoints. */
 #include "checkpoint.h"
 #include "gather.h"
 #include <mps/output.h>
@@ -7,7 +7,7 @@
 
 static const char setup_part[] = "set-up";
 
-/* The text of the set-up, in memory of its own. */
+/* Text of the set-up, allocated. */
 static mps_status make_setup(mps_sim *sim, mps__text *text)
 {
     *text = (mps__text){NULL, 0};
@@ -83,7 +83,7 @@ static mps_status check_setup(mps_sim *sim, const mps__archive *a)
 
 mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
 {
-    MPS__STEPS(sim); /* all fields are replaced, also those that a device has alone */
+    MPS__STEPS(sim); /* all fields are replaced, also those valid only on a device */
     mps__context *c = &sim->context;
     MPS__CHECK(c, path && path[0], "the path of the checkpoint is NULL or empty");
     const int32_t open = mps__particles_leases(&sim->world.particles);
@@ -100,6 +100,6 @@ mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
     if (status == MPS_OK) status = mps__ranks_agree(r, check_setup(sim, &a));
     if (status == MPS_OK) status = mps__state_get(sim, &a);
     mps__archive_free(&a);
-    /* without memory on one rank others have the state of the file */
+    /* if one rank is out of memory, the others already have the state of the file */
     return status == MPS_E_NOMEM ? mps__ranks_tell(r, status) : status;
 }

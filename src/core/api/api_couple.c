@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/couple.h that ask for the load on the tank. */
+/* Public functions of mps/couple.h for the load on the tank. */
 #include "sim.h"
 #include <mps/couple.h>
 #include <string.h>
@@ -29,14 +29,14 @@ mps_status mps_load_watch(mps_sim *sim, int32_t what)
     return MPS_OK;
 }
 
-/* Accelerations and moments about another place, r from the one that they are known for: the acceleration there is
- * a + alpha x r + ..., of which terms without a derivative of the velocity belong to the rest. */
+/* Transform accelerations and moments to another point at distance r: its acceleration is a + alpha
+ * x r + ..., where terms without a derivative of the velocity belong to the rest. */
 static void move(const mps__load *l, const double r[3], mps_load *out)
 {
-    double T[36] = {0}, arm[3]; /* accelerations there to accelerations here */
+    double T[36] = {0}, arm[3]; /* maps accelerations at the new point to the known one */
     for (int k = 0; k < 6; k++) T[7 * k] = 1;
     for (int d = 0; d < 3; d++) {
-        const int e = (d + 1) % 3, f = (d + 2) % 3; /* a_here = a_there - alpha x r */
+        const int e = (d + 1) % 3, f = (d + 2) % 3; /* a_known = a_new - alpha x r */
         T[6 * d + 3 + e] = -r[f];
         T[6 * d + 3 + f] = r[e];
     }

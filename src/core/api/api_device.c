@@ -3,7 +3,7 @@
 #include "sim.h"
 #include <mps/device.h>
 
-/* Ranks wait for each other in the same order only if all of them have a device, or none. */
+/* Collective calls have the same order on all ranks only if all have a device, or none. */
 static mps_status all_alike(mps_sim *sim, bool device)
 {
     mps__ranks *r = &sim->world.ranks;
@@ -26,7 +26,7 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     if (open)
         return mps__fail(&sim->context, MPS_E_BUSY, "%d lease(s) are open; end them first", open);
     MPS__TRY(all_alike(sim, ops != NULL));
-    /* a new search needs none of the last one */
+    /* a new search does not need the last one */
     if (mps__world_fetch_lists(w) < 0) w->lists.neighbours.valid = false;
     mps__solvers_leave(&w->solvers, &w->host.twins.device);
     mps__ppe_leave(&w->ppe, &w->host.twins.device);

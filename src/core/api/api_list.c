@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/list.h. */
+/* Public functions of mps/list.h. */
 #include "sim.h"
 #include <mps/list.h>
 #include <stdio.h>
@@ -46,7 +46,7 @@ mps_status mps_name_info_init(mps_name_info *info, size_t size)
 
 /* ---- models ---- */
 
-/* The active model of a table, or NULL. */
+/* Active model of a table, or NULL. */
 static const mps__model *active(const mps__models *m, const mps_model_ops *ops)
 {
     for (int32_t k = 0; k < m->active; k++)
@@ -135,7 +135,7 @@ static void tell_uses(const mps__call *call, char out[MPS__USES_SIZE])
         if (length < 0 || used + (size_t)length >= MPS__USES_SIZE) break;
         used += (size_t)length;
     }
-    out[used] = 0; /* no names by halves */
+    out[used] = 0; /* no truncated names */
 }
 
 /* Verb number `index` of the plan, or NULL. */

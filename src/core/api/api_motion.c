@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/motion.h. A new motion carries the tank and what is in it to its pose at the present time. */
+/* Public functions of mps/motion.h. A new motion moves the tank and its contents to its pose at the
+ * present time. */
 #include "api_motion.h"
 #include "step.h"
 #include "builtin_motion.h"
@@ -42,7 +43,8 @@ static bool same(const double *a, const double *b, int count)
     return true;
 }
 
-/* Particles keep their place in the tank's frame. Velocities stay: a step sees the jump of the walls'. */
+/* Keep the particle positions in the tank frame. Velocities stay: the next step sees the velocity
+ * jump of the walls. */
 static mps_status carry_particles(mps_sim *sim, const mps__motion *old)
 {
     mps__world *w = &sim->world;
@@ -61,7 +63,7 @@ static mps_status carry_particles(mps_sim *sim, const mps__motion *old)
             memcpy(X, &s->ref[i * s->dim], (size_t)s->dim * sizeof(double));
         mps__motion_point(m, &m->now, X, x, NULL, NULL);
     }
-    /* the way from the old pose to the new one is no motion: the tank begins anew */
+    /* the change from the old pose to the new one is no motion: the tank starts anew */
     w->state.dt_before = 0;
     return MPS_OK;
 }
@@ -85,7 +87,7 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
         if (old.user != next->user) mps__motion_free(next);
         return status;
     }
-    /* the last step looked ahead with speeds relative to the tank */
+    /* the limits predicted by the last step used velocities relative to the tank */
     if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.changes = -1;
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
@@ -93,7 +95,7 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
     return MPS_OK;
 }
 
-/* A motion of the library: data of its own, and how long a step may be is known. */
+/* Install a motion of the library: it owns its data, and its step length limit is known. */
 static mps_status install_built_in(mps_sim *sim, mps_motion_fn fn, void *data,
                                    double (*longest)(const void *, double, double), double t_end)
 {
@@ -196,7 +198,7 @@ mps_status mps_motion_centre_set(mps_sim *sim, const double *centre, int32_t sta
                    centre[d], MPS__FARTHEST * w->setup.dp, MPS__FARTHEST);
         next.centre[d] = centre[d];
     }
-    /* the pose in force does not depend on the centre */
+    /* the current pose does not depend on the centre */
     mps__motion old = w->motion;
     next.start = start;
     w->motion = next;
@@ -292,7 +294,7 @@ mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_stat
     next.t_end = t_end;
     next.longest = NULL;
     next.told = false;
-    /* one that the library calls back must not tell of a plug-in */
+    /* an error in a callback of the library must not mention a plug-in */
     if (mps__motion_pose(&next, t_end, &last) < 0) return MPS_E_ARG;
     MPS__TRY(mps__world_check_pose(w, &next, &last, MPS_E_ARG));
     next.posed = next.user = mps__alloc(&sim->context, 1, sizeof way);

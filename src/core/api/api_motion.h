@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A new motion of the tank. */
+/* Installation of a new motion of the tank. */
 #ifndef MPS_CORE_API_MOTION_H
 #define MPS_CORE_API_MOTION_H
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public function of mps/output.h that takes a handle. */
+/* Public function of mps/output.h that takes a handle. */
 #include "frames.h"
 #include "sim.h"
 

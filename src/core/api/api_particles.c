@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles of the public interface: add, remove, fields, leases. */
+/* Public functions of particles: add, remove, fields, leases. */
 #define _POSIX_C_SOURCE 200809L
 #include "gather.h"
 #include "plates.h"
@@ -9,7 +9,7 @@
 #include <mps/particles.h>
 #include <string.h>
 
-/* Particles nearer than this [dp] are one by mistake. */
+/* Particles closer than this [dp] are duplicates by mistake. */
 static const double overlap = 0.1;
 
 static const mps_particle_block block_default = {.struct_size = sizeof(mps_particle_block),
@@ -62,7 +62,8 @@ static mps_status check_block(mps_sim *sim, const mps_particle_block *b)
     return MPS_OK;
 }
 
-/* Refuse particles on top of each other, in the block or with those there. Coincident walls are the two faces of a plate. */
+/* Refuse particles on top of each other, in the block or with existing ones. Coincident walls are
+ * the two faces of a plate. */
 static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
 {
     mps__particles *s = &sim->world.particles;
@@ -83,7 +84,7 @@ static mps_status check_overlap(mps_sim *sim, const mps_particle_block *b)
         mps__fail(&sim->context, status, "%s",
                   list ? list->context->error : "no memory to look for overlapping particles");
     for (int64_t i = s->n; status == MPS_OK && i < n;
-         i++) /* candidates: coincident particles are no pairs */
+         i++) /* candidates, as coincident particles are no pairs */
         for (int64_t k = list->begin[i]; k < list->begin[i] + list->count[i] && status == MPS_OK;
              k++) {
             const int64_t j = list->col[k];
@@ -128,7 +129,8 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
     }
 }
 
-/* An open tank may be filled from above, so fluid outside of the walls is taken; but its owner is told. */
+/* An open tank may be filled from above, so fluid outside of the walls is accepted with a
+ * warning. */
 static void tell_outside(mps_sim *sim, const mps_particle_block *b)
 {
     mps__world *w = &sim->world;
@@ -154,7 +156,7 @@ static void tell_outside(mps_sim *sim, const mps_particle_block *b)
              (long long)count, x[0], x[1], dim == 3 ? x[2] : 0);
 }
 
-/* Each rank looks at the particles that it has; all refuse alike. */
+/* Each rank checks its own particles; all ranks return the same status. */
 static mps_status check_overlap_everywhere(mps_sim *sim, const mps_particle_block *b)
 {
     return mps__ranks_agree(&sim->world.ranks, check_overlap(sim, b));
@@ -184,7 +186,7 @@ static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64
     return mps__world_divided(&sim->world) ? mps__world_adopt(&sim->world) : MPS_OK;
 }
 
-/* Where one rank has no memory, the others have the particles and it has not. */
+/* If one rank is out of memory, the others have the new particles and it has not. */
 static mps_status same_everywhere(mps_sim *sim, mps_status status)
 {
     mps__ranks *r = &sim->world.ranks;
@@ -199,7 +201,7 @@ mps_status mps_particles_add(mps_sim *sim, const mps_particle_block *block, int6
     return same_everywhere(sim, add_block(sim, block, ids));
 }
 
-/* Places of all ids, [next_id], -1 where there is none; NULL when memory is out. */
+/* Indices of all ids, [next_id], -1: no such particle; NULL: out of memory. */
 static int32_t *places(mps_sim *sim)
 {
     mps__particles *s = &sim->world.particles;
@@ -210,7 +212,8 @@ static int32_t *places(mps_sim *sim)
     return place;
 }
 
-/* Whether all ids are known, each given once; on many ranks each is owned by one. `place` of a particle that goes becomes -1. */
+/* Whether all ids are known, each given once; on many ranks each must be owned by exactly one rank.
+ * `place` of a removed particle becomes -1. */
 static mps_status check_ids(mps_sim *sim, int64_t count, const int64_t *ids, int32_t *place)
 {
     const mps__particles *s = &sim->world.particles;
@@ -232,7 +235,7 @@ static mps_status check_ids(mps_sim *sim, int64_t count, const int64_t *ids, int
     return MPS_OK;
 }
 
-/* Take out the particles whose place is -1. */
+/* Remove the particles whose index is -1. */
 static mps_status take_out(mps_sim *sim, const int32_t *place)
 {
     mps__particles *s = &sim->world.particles;
@@ -310,7 +313,7 @@ mps_status mps_lease_init(mps_lease *lease, size_t size)
     return mps__struct_init("mps_lease", lease, size, &closed, sizeof closed);
 }
 
-/* A field that can be leased, or a text about those that can. */
+/* Find a field that can be leased; the error text lists those that can. */
 static mps_status find_leasable(mps_sim *sim, const char *name, mps__field **found)
 {
     mps__particles *s = &sim->world.particles;

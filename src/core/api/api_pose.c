@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pose of the tank as a matrix: the functions of mps/motion.h that need no simulation. */
+/* Pose of the tank as a matrix: functions of mps/motion.h that need no simulation. */
 #include "motion.h"
 #include <math.h>
 #include <string.h>
@@ -29,7 +29,7 @@ mps_status mps_motion_pose_from_state(const mps_motion_state *state, mps_motion_
     return mps__struct_out(NULL, "mps_motion_pose", pose, &result, sizeof result);
 }
 
-/* Right-handed and orthonormal, by the columns of R. */
+/* Whether the columns of R are orthonormal and right-handed. */
 static bool is_rotation(const mps__triad *axes)
 {
     double third[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/probe.h. */
+/* Public functions of mps/probe.h. */
 #include "sim.h"
 #include "world_ranks.h"
 #include <string.h>
@@ -31,7 +31,7 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
     MPS__CHECK(&sim->context, id, "id is NULL");
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
     const mps_status status = mps__probes_add(&sim->world, &sim->probes, &p, id);
-    /* what all ranks refuse ends no run */
+    /* broadcast out of memory only: other errors occur on all ranks and need not end the run */
     return status == MPS_E_NOMEM ? mps__ranks_tell(&sim->world.ranks, status) : status;
 }
 
@@ -88,7 +88,7 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
     return mps__ranks_tell(&sim->world.ranks, status);
 }
 
-/* A probe that keeps samples; NULL: there is none, and the status says why. */
+/* A probe that records samples; NULL: none, with the reason in the status. */
 static mps__probe *find_series(mps_sim *sim, int32_t id, mps_status *status)
 {
     mps__probe *probe = NULL;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/ship.h. */
+/* Public functions of mps/ship.h. */
 #include "motion.h"
 #include "angles.h"
 #include <math.h>
@@ -8,15 +8,15 @@
 
 enum { DOFS = 6 };
 
-/* A ship whose entries are good. */
+/* A validated ship. */
 typedef struct hull {
-    mps__triad rest;  /* e1, e2, e3 in the axes of the lab */
-    double unit;      /* of angles [rad] */
+    mps__triad rest;  /* e1, e2, e3 in lab axes */
+    double unit;      /* of angles, in radians */
     int32_t order[3]; /* of the rotations, as axes 0, 1, 2 */
     double origin[3];
 } hull;
 
-/* Where the axes are, and how they turn, in the axes of the lab. */
+/* Directions of the axes and their rotation, in lab axes. */
 typedef struct attitude {
     mps__triad axes;
     double omega[3], alpha[3];
@@ -100,7 +100,7 @@ mps_status mps_ship_motion_init(mps_ship_motion *motion, size_t size)
 
 /* ---- motions ---- */
 
-/* Components along the axes and back; in and out may be the same. */
+/* Components along the axes and back; `in` and `out` may be the same. */
 static void to_axes(const mps__triad *axes, const double v[3], double out[3])
 {
     const double in[3] = {v[0], v[1], v[2]};
@@ -204,7 +204,7 @@ static bool good_columns(int32_t dofs, const int32_t *dof)
     return true;
 }
 
-/* One row, its angles continued from those of the row before. */
+/* Convert one row; its angles continue those of the previous row. */
 static mps_status convert_row(const hull *h, const double *six, mps_motion_state *tank)
 {
     const double turn = 2 * MPS__PI;
@@ -227,7 +227,8 @@ mps_status mps_ship_table(const mps_ship *ship, int64_t rows, const double *colu
     hull h;
     MPS__TRY(open_hull(ship, &h));
     if (rows < 1 || !columns || !values || !good_columns(dofs, dof)) return MPS_E_ARG;
-    for (int pass = 0; pass < 2; pass++) { /* the second one cannot fail, and writes */
+    /* the first pass validates, the second one cannot fail and writes */
+    for (int pass = 0; pass < 2; pass++) {
         mps_motion_state tank = {.struct_size = sizeof tank};
         for (int64_t k = 0; k < rows; k++) {
             MPS__TRY(convert_row(&h, columns + DOFS * k, &tank));
@@ -242,7 +243,7 @@ mps_status mps_ship_table(const mps_ship *ship, int64_t rows, const double *colu
 
 /* ---- vectors and loads ---- */
 
-/* The axes that components are given along, and the arm R (at - origin). */
+/* Axes of the components, and the arm R (at - origin). */
 typedef struct view {
     mps__triad axes;
     double arm[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stepping of the public interface, and the stencil of a simulation. */
+/* Public functions of stepping, and the stencil of a simulation. */
 #include "step.h"
 #include "kernel.h"
 #include "sim.h"
@@ -72,7 +72,7 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     mps_step_info probe = info_default;
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));
-    /* before the step, not after it: what runs out of memory here leaves no step half done */
+    /* allocate before the step: an out-of-memory error leaves no step incomplete */
     MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__probes_take(&sim->world, &sim->probes)));
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback in a step");
     mps_status status = mps__ranks_tell(&sim->world.ranks, mps__world_step(&sim->world, dt_max));
@@ -83,7 +83,7 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     return status;
 }
 
-/* Times that differ by this are the same: programs add up lengths of steps, which rounds. */
+/* Times within this difference are equal: programs add up step lengths, which rounds. */
 static double rounding_of(double t)
 {
     return 1e-12 * fmax(1.0, fabs(t));
@@ -113,7 +113,7 @@ mps_status mps_run(mps_sim *sim, double t_end, mps_monitor_fn monitor, void *use
         MPS__TRY(mps__ranks_status(&w->ranks));
         if (stop) return MPS_W_STOPPED;
     }
-    w->state.t = t_end; /* also without a step: else a loop up to this time never ends */
+    w->state.t = t_end; /* also without a step: otherwise a loop up to this time would not end */
     return result;
 }
 

@@ -16,7 +16,7 @@ static const mps_config config_default = {.struct_size = sizeof(mps_config),
 static const mps_phase water = {
     .struct_size = sizeof(mps_phase), .density = 1000, .viscosity = 1e-3};
 
-/* Spacings whose powers are numbers [m]. */
+/* Range of spacings whose powers are finite and non-zero [m]. */
 static const double DP_MIN = 1e-12, DP_MAX = 1e12;
 
 mps_status mps_config_init(mps_config *config, size_t size)
@@ -49,7 +49,8 @@ static mps_status check_config(mps__context *c, mps_config *f)
                DP_MIN, DP_MAX);
     if (f->re_near == 0) f->re_near = 2.1;
     if (f->re_far == 0) f->re_far = f->dim == 2 ? 3.1 : 2.1;
-    /* diagonal neighbours, at 1.42 dp, must weigh something: with 1.1 a tank gets ten times its energy, with 1.01 it diverges */
+    /* diagonal neighbours, at 1.42 dp, need a non-zero weight: with 1.1 the energy of a tank grows
+     * tenfold, with 1.01 it diverges */
     MPS__CHECK(c, f->re_near >= 1.5 && f->re_near <= 10,
                "config.re_near is %g dp: 1.5 <= re_near <= 10", f->re_near);
     MPS__CHECK(c, f->re_far >= f->re_near && f->re_far <= 10,
@@ -119,7 +120,7 @@ mps_status mps_sim_create(const mps_config *config, mps_sim **sim)
     mps__context c = {.allocator = mps__allocator_default()};
     mps_config f = config_default;
     mps_status status = mps__struct_in(&c, "mps_config", &f, sizeof f, config);
-    /* not copied, but there is a place for the text */
+    /* not copied, but has a buffer for the error text */
     if (status < 0 && config && config->struct_size >= offsetof(mps_config, parallel)) {
         f.error = config->error;
         f.error_size = config->error_size;
@@ -155,8 +156,8 @@ void mps_sim_destroy(mps_sim *sim)
         mps__log(&sim->context, MPS_LOG_WARNING, "%s", sim->context.error);
         return;
     }
-    mps__lock_set(&sim->context, MPS__LOCKED,
-                  "mps_sim_destroy()"); /* plug-ins are destroyed, too */
+    /* the destroy functions of plug-ins run under this lock */
+    mps__lock_set(&sim->context, MPS__LOCKED, "mps_sim_destroy()");
     mps__context c = sim->context;
     mps__probes_free(&sim->context, &sim->probes);
     for (int32_t k = 0; k < sim->solids; k++) mps__distances_free(&sim->solid[k], &c);
@@ -196,7 +197,8 @@ mps_status mps_threads_set(mps_sim *sim, int32_t threads)
     return MPS_OK;
 }
 
-/* Of the particles of a phase; the field is not touched where they have this density already. */
+/* Set the density of a phase's particles; the field is not changed if all have this density
+ * already. */
 static mps_status set_density(mps__world *w, int32_t phase, double density)
 {
     mps__particles *s = &w->particles;
@@ -277,7 +279,7 @@ mps_status mps_tension_get(const mps_sim *sim, int32_t a, int32_t b, double *sig
     return MPS_OK;
 }
 
-/* ---- models ----------------------------------------------------------------------------------------------------- */
+/* ---- models ---- */
 
 mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops)
 {

@@ -1,29 +1,30 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Polynomials by scripts/numbers. */
+/* Polynomials computed by scripts/numbers. */
 #include "angles.h"
 #include <mps/numbers.h>
 
-/* a + b of any sizes. */
+/* a + b of arbitrary magnitudes. */
 static mps_wide sum_of(double a, double b)
 {
     const double sum = a + b, part = sum - a;
     return mps_wide_of(sum, (a - (sum - part)) + (b - part));
 }
 
-/* The integer next to x, |x| < 2^51: a sum with 1.5 * 2^52 has no digits behind the point. */
+/* Integer nearest to x, |x| < 2^51: adding 1.5 * 2^52 leaves no fractional digits. */
 static double nearest(double x)
 {
     return (x + 0x1.8p52) - 0x1.8p52;
 }
 
-/* x = k pi/2 + r.hi + r.lo, |r.hi| < 0.786. pi/2 has three parts; products and sums keep what they round off, so that r has all digits next
- * to multiples of pi/2 too. Returns k modulo 4. */
+/* Argument reduction: x = k pi/2 + r.hi + r.lo, |r.hi| < 0.786. pi/2 has three parts; products and
+ * sums keep their rounding errors, so that r is accurate near multiples of pi/2 too. Returns k
+ * modulo 4. */
 static int quarters(double x, mps_wide *r)
 {
     const mps_wide quarter = mps_wide_of(0x1.921fb54442d18p+0, 0);
     double k = nearest(x * 0x1.45f306dc9c883p-1);
     const mps_wide near = mps_wide_product(quarter, k);
-    k += nearest(((x - near.hi) - near.lo) * 0x1.45f306dc9c883p-1); /* of large x: k was rounded */
+    k += nearest(((x - near.hi) - near.lo) * 0x1.45f306dc9c883p-1); /* for large x: k was rounded */
     const mps_wide first = mps_wide_product(quarter, k),
                    second = mps_wide_product(mps_wide_of(0x1.1a62633145c07p-54, 0), k);
     const mps_wide a = sum_of(x - first.hi, -first.lo), b = sum_of(a.hi, -second.hi);
@@ -77,8 +78,8 @@ double mps__cos(double x)
 /* atan(a/b), 0 <= a <= b, 0 < b */
 static double slope_angle(double a, double b)
 {
-    const int steep = a >
-                      0.4142135623730950488 * b; /* tan(pi/8): then atan((a - b)/(a + b)) + pi/4 */
+    /* tan(pi/8): then atan((a - b)/(a + b)) + pi/4 */
+    const int steep = a > 0.4142135623730950488 * b;
     const double t = steep ? (a - b) / (a + b) : a / b, z = t * t, z2 = z * z, z4 = z2 * z2;
     const double odd = -0x1.5555555555555p-2 + z * 0x1.9999999999953p-3 +
                        z2 * (-0x1.249249248d7dcp-3 + z * 0x1.c71c71c303dbbp-4) +

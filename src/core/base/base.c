@@ -49,7 +49,7 @@ mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t u
                      size_t size)
 {
     if (count <= *capacity) return MPS_OK;
-    /* half as much again, so that appending stays linear */
+    /* grow by half, so that appending takes linear time */
     int64_t wanted = count + (used > 0 ? count / 2 : 0);
     void *larger = mps__alloc(c, wanted, size);
     if (!larger) return MPS_E_NOMEM;
@@ -78,7 +78,7 @@ void mps__scratch_free(mps__context *c, mps__scratch *s)
 
 mps_status mps__fail(mps__context *c, mps_status status, const char *format, ...)
 {
-    /* a text may quote the previous one */
+    /* the arguments may point to the previous error text */
     char text[MPS__ERROR_SIZE];
     va_list list;
     if (!c) return status;
@@ -98,7 +98,7 @@ mps__lock mps__lock_set(mps__context *c, int32_t level, const char *what)
 
 void mps__log(mps__context *c, int level, const char *format, ...)
 {
-    if (!c->log || c->logs) return; /* what a log callback does is not logged: it would not end */
+    if (!c->log || c->logs) return; /* a log callback must not log: endless recursion */
     char text[MPS__ERROR_SIZE];
     va_list list;
     va_start(list, format);
@@ -134,7 +134,7 @@ static int edit_distance(const char *a, const char *b)
 const char *mps__near(const char *name, const char *const *names, int count)
 {
     const char *best = NULL;
-    /* one slip, and one more for every four letters, are near */
+    /* near: at most one error, plus one for every four letters */
     int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) / 4);
     for (int k = 0; k < count; k++) {
         int d = edit_distance(name, names[k]);
@@ -155,7 +155,7 @@ const char *mps__list(char out[MPS__HINT_SIZE], char quote, const char *const *n
         const int length = snprintf(out + used, left, "%s%c%s%c", k ? ", " : "", quote, names[k],
                                     quote);
         if (length < 0 || (size_t)length >= left) {
-            out[used] = 0; /* no names by halves */
+            out[used] = 0; /* no truncated names */
             break;
         }
         used += (size_t)length;

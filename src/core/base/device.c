@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of a device: what is checked, counted, and what a failure does. */
+/* Calls of a device: checks, counters, failures. */
 #include "device.h"
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +24,7 @@ static mps_status check_table(mps__context *c, const mps_device_ops *ops)
     return MPS_OK;
 }
 
-/* Loops of calls on the device that no launch knows stay in the calling thread. */
+/* Loops of calls on the device that have no launch run in the calling thread. */
 static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argument)
 {
     (void)user;
@@ -70,7 +70,7 @@ mps__device *mps__device_of(const mps_parallel *p)
 
 /* ---- failures ---- */
 
-/* What a call of the device has returned. Later calls, of memory, may forget why it has failed. */
+/* Store the result of a device call. Later memory calls may overwrite the failure reason. */
 static void note(mps__device *d, int failed)
 {
     if (!failed) return;
@@ -200,14 +200,14 @@ void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t numbe
 
 /* ---- loops ---- */
 
-/* Without folders. */
+/* File name without folders. */
 static const char *name_of(const char *file)
 {
     const char *folder = strrchr(file, '/');
     return folder ? folder + 1 : file;
 }
 
-/* What is alike in all launches. */
+/* Set the common fields of a launch. */
 static void complete(mps__device *d, mps_launch *launch)
 {
     launch->struct_size = sizeof *launch;
@@ -230,7 +230,7 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
                                     (size_t)launch->maxima * sizeof *maxima);
 }
 
-/* Results of no rows, which a rank may have. */
+/* Write the results of a launch without rows, which a rank may have. */
 static void put_nothing(mps__device *d, const mps_launch *launch, void *to)
 {
     double lowest[MPS_PARALLEL_VALUES];

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sums whose bytes depend neither on the order nor on the grouping of their terms; mps/exact.h has the method.
+/* Sums whose bytes depend neither on the order nor on the grouping of their terms; mps/exact.h
+ * describes the method.
  *
- * n_k is found by an addition: v + m_k, with m_k = 1.5 2^52 u_k, has the unit u_k in its last place, and the bits of the sum, read as an
- * integer, are those of m_k plus n_k. The sums of these integers do not overflow but wrap, so the bits of m_k are subtracted at the end.
- * m_k is even in its last place, so halves are rounded to the same neighbour whatever the terms before were.
- * By these units level = biased exponent/26 is the lowest level of a term. */
+ * n_k is found by an addition: v + m_k, with m_k = 1.5 2^52 u_k, has the unit u_k in its last
+ * place, and the bits of the sum, read as an integer, are those of m_k plus n_k. The sums of these
+ * integers do not overflow but wrap, so the bits of m_k are subtracted at the end. m_k is even in
+ * its last place, so ties are rounded to the same neighbour whatever the previous terms were. With
+ * these units level = biased exponent/26 is the lowest level of a term. */
 #include "base.h"
 #include <float.h>
 #include <math.h>
@@ -15,9 +17,9 @@ _Static_assert(FLT_EVAL_METHOD == 0, "double must be computed in double precisio
 
 enum {
     LEVEL_BITS = 26,   /* between the units of two levels */
-    FIRST_BITS = 1074, /* the unit of level 0 is 2^-FIRST_BITS, that of all doubles */
-    BLOCK = 512,       /* terms whose largest is looked at together */
-    FIRST = 64,        /* terms of the first block, from which the level is found */
+    FIRST_BITS = 1074, /* unit of level 0: 2^-FIRST_BITS, a divisor of all doubles */
+    BLOCK = 512,       /* terms that share one search for the largest */
+    FIRST = 64,        /* terms of the first block, which determine the level */
     SCALED = 77,      /* from this level on m_k would overflow: terms are scaled by 2^-SCALE_BITS */
     SCALE_LEVELS = 4, /* SCALE_BITS/LEVEL_BITS */
     PLUS = 1,         /* bits of mps_exact.special */
@@ -43,12 +45,13 @@ static inline double magic(int32_t level)
     return v;
 }
 
-/* Add the n_k of terms x, or x y, to the parts from `level` on. Without effect and false: a term is too large for the level or not finite. */
+/* Add the n_k of terms x, or x y, to the parts from `level` on. Without effect and false: a term is
+ * not finite or too large for the level. */
 static inline bool deposit_any(int64_t part[3], int32_t level, int64_t count, const double *x,
                                const double *y)
 {
     const double m0 = magic(level), m1 = magic(level + 1), m2 = magic(level + 2);
-    /* what brings the exponents that are too large to the sign bit */
+    /* added to the bits, it carries too large exponents into the sign bit */
     const uint64_t limit = (uint64_t)(0x800 - LEVEL_BITS * (level + 1)) << 52;
     uint64_t s0 = 0, s1 = 0, s2 = 0, large = 0;
     for (int64_t i = 0; i < count; i++) {
@@ -68,14 +71,14 @@ static inline bool deposit_any(int64_t part[3], int32_t level, int64_t count, co
     return true;
 }
 
-/* The same with and without products, so that each loop is a vector loop. */
+/* Separate versions with and without products, so that each loop is a vector loop. */
 static bool deposit_plain(int64_t part[3], int32_t level, int64_t count, const double *x,
                           const double *y)
 {
     return y ? deposit_any(part, level, count, x, y) : deposit_any(part, level, count, x, NULL);
 }
 
-/* The same bits in wider vectors, where the processor has them. */
+/* Wider vectors, if the processor has them; the same bits. */
 #if defined(__GNUC__) && defined(__x86_64__) && !defined(MPS_DEVICE)
 __attribute__((target("avx2"))) static bool
 deposit_wide(int64_t part[3], int32_t level, int64_t count, const double *x, const double *y)
@@ -92,7 +95,8 @@ static bool deposit(int64_t part[3], int32_t level, int64_t count, const double 
 #define deposit deposit_plain
 #endif
 
-/* Make `level` the lowest, if it is higher; parts below are dropped, as they would be had the largest term come first. */
+/* Raise the lowest level to `level`; lower parts are dropped, as if the largest term had come
+ * first. */
 static void raise_level(mps_exact *sum, int32_t level)
 {
     const int32_t up = level - sum->level;
@@ -107,7 +111,7 @@ static int32_t special_of(double v)
     return v > 0 ? PLUS : MINUS;
 }
 
-/* Add at most BLOCK terms of any size. In plain vectors, so that tests compare these with wide ones. */
+/* Add at most BLOCK terms of any size. In plain vectors, for tests against the wide ones. */
 static void add_block(mps_exact *sum, int64_t count, const double *x, const double *y)
 {
     double term[BLOCK];
@@ -163,7 +167,8 @@ void mps_exact_join(mps_exact *sum, const mps_exact *other)
     sum->special |= from.special;
 }
 
-/* u_k, which is subnormal below level 2. The product with it is rounded once, as by ldexp(), which devices do not have. */
+/* u_k, which is subnormal below level 2. The product with it is rounded once, as by ldexp(), which
+ * devices lack. */
 static double unit_of(int32_t level)
 {
     const int32_t power = LEVEL_BITS * level - FIRST_BITS;
@@ -182,7 +187,7 @@ double mps_exact_value(const mps_exact *sum)
     if (sum->special) return NAN;
     const int64_t middle = sum->part[1] + sum->part[0] / unit, high = sum->part[2] + middle / unit,
                   top = high / split;
-    /* what is below 2^84 and what is above: rounded once, unless there is both */
+    /* parts below and above 2^84: rounded once, unless both exist */
     const double low = (double)(middle % unit * unit + sum->part[0] % unit),
                  below = (double)(high % split) * 0x1p52 + low, above = (double)top * 0x1p84;
     return (above + below) * unit_of(sum->level);
@@ -204,8 +209,8 @@ static void run_range(void *argument, int32_t range)
 {
     rows *r = argument;
     const mps_exact_values *v = r->values;
-    mps_exact sum[MPS_PARALLEL_VALUES] = {
-        0}; /* threads do not write to one cache line while they sum */
+    /* local: avoids false sharing of cache lines between threads */
+    mps_exact sum[MPS_PARALLEL_VALUES] = {0};
     double maximum[MPS_PARALLEL_VALUES] = {0};
     if (v->maxima > 0) memcpy(maximum, v->maximum, (size_t)v->maxima * sizeof *maximum);
     r->body(r->argument, r->n * range / r->ranges, r->n * (range + 1) / r->ranges, sum, maximum);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Trees of rows that threads join at once, for loops over rows: the lowest row of every tree is its own parent, others have a lower one. Parents
- * are only ever replaced by rows further up, so that threads may meet in a tree; which rows are in a tree depends on no order. */
+/* Lock-free union-find over rows: the lowest row of a set is its own parent, other rows have a
+ * lower parent. Parents are only replaced by lower rows, so that threads may work on one set
+ * concurrently; the resulting sets do not depend on the order. */
 #ifndef MPS_CORE_FOREST_H
 #define MPS_CORE_FOREST_H
 
@@ -11,7 +12,8 @@
 #include <stdatomic.h>
 #endif
 
-/* Numbers that threads meet at. Compilers for devices know the operations of C11 as calls alone. */
+/* Numbers shared by threads. Device compilers support the atomic operations of C11 only as
+ * functions. */
 #ifdef MPS_DEVICE
 typedef volatile int32_t mps__shared_number;
 
@@ -48,7 +50,7 @@ MPS_ROW bool mps__forest_replace(mps__shared_number *at, int32_t before, int32_t
 }
 #endif
 
-/* Rows on the way are brought nearer to it. */
+/* With path halving. */
 MPS_ROW int32_t mps__forest_root(mps__shared_number *parents, int32_t r)
 {
     int32_t parent = mps__forest_get(&parents[r]);
@@ -61,7 +63,7 @@ MPS_ROW int32_t mps__forest_root(mps__shared_number *parents, int32_t r)
     return r;
 }
 
-/* Make one tree of those of rows r and c. */
+/* Merge the sets of rows r and c. */
 MPS_ROW void mps__forest_join(mps__shared_number *parents, int32_t r, int32_t c)
 {
     for (;;) {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops of the library's own on the threads of a handle: the one place where they are run. */
+/* Loops of the library on the threads of a handle: they run only here. */
 #include "loop.h"
 #include "device.h"
 
-/* A loop, or sums and maxima, as the parallel-for wants them. */
+/* A loop, or sums and maxima, passed to the parallel-for. */
 typedef struct job {
     const mps__loop *loop;
     const mps__values *values;

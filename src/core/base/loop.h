@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops of the library's own over rows, in the shape of those of models (mps/stage.h): a row function, what it sees as numbers and arrays
- * (no pointers to other structs), and a table of both, which the function that runs the loop takes as it is. */
+/* Loops of the library over rows, like those of models (mps/stage.h): a row function, its fields as
+ * numbers and arrays (no pointers to other structs), and a table of both for the function that runs
+ * the loop. */
 #ifndef MPS_CORE_LOOP_H
 #define MPS_CORE_LOOP_H
 
@@ -11,19 +12,19 @@
 
 struct mps__device;
 
-/* A loop over rows; MPS__LOOP() defines one. */
+/* A loop over rows, defined by MPS__LOOP(). */
 typedef struct mps__loop {
     const char *name;
     size_t bytes; /* of the fields */
     void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end);
-    const char *file; /* that defines it */
+    const char *file; /* source file that defines it */
 } mps__loop;
 
-/* Sums and maxima over rows; MPS__VALUES() defines them. */
+/* Sums and maxima over rows, defined by MPS__VALUES(). */
 typedef struct mps__values {
     const char *name;
     size_t bytes;         /* of the fields */
-    int32_t sums, maxima; /* MPS_PARALLEL_VALUES in all at most */
+    int32_t sums, maxima; /* MPS_PARALLEL_VALUES in total at most */
     void (*run)(int32_t dim, const void *fields, int64_t begin, int64_t end, mps_exact *sum,
                 double *maximum);
     const char *file;
@@ -31,33 +32,36 @@ typedef struct mps__values {
 
 /* Threads of a group of MPS__GROUP(). */
 enum { MPS__TOGETHER = 128 };
-/* The dimension of loops whose rows do not look at it. */
+/* Dimension of loops whose rows do not depend on it. */
 enum { MPS__ANY_DIM = 2 };
 
 /* Run a loop of MPS__GROUP() on a device. */
 void mps__group_run(struct mps__device *d, const mps__loop *group, const void *fields);
-/* Run rows 0..n-1, ranges of MPS_PARALLEL_LEAST of them at least. A row writes nothing that others read. */
+/* Run rows 0..n-1 in ranges of at least MPS_PARALLEL_LEAST. A row must not write what other rows
+ * read. */
 void mps__loop_run(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                    const void *fields);
-/* The same with ranges of one row at least: rows are few and long. */
+/* Run rows in ranges of at least one row: for few and expensive rows. */
 void mps__loop_run_long(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                         const void *fields);
-/* The same with ranges of MPS__ROWS_CHEAP rows at least: a row does next to nothing. */
+/* Run rows in ranges of at least MPS__ROWS_CHEAP: for very cheap rows. */
 void mps__loop_run_cheap(const mps_parallel *p, const mps__loop *loop, int32_t dim, int64_t n,
                          const void *fields);
-/* Terms of rows 0..n-1 are added to the sums, their maxima raised. */
+/* Add the terms of rows 0..n-1 to the sums and update the maxima. */
 void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t dim, int64_t n,
                      const void *fields, mps_exact *sum, double *maximum);
-/* The same on a device, without waiting: sums, then maxima, of the rows alone go to memory there. */
+/* Reduce asynchronously on a device: sums, then maxima, of these rows only are written to device
+ * memory. */
 void mps__values_gather(struct mps__device *d, const mps__values *values, int32_t dim, int64_t n,
                         const void *fields, void *to);
-/* First row of 0..n-1 that the test of MPS__FIRST() finds, n if there is none. */
+/* First row of 0..n-1 that satisfies the test of MPS__FIRST(), n if none does. */
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
                        const void *fields);
 
 /* Define the mps__loop `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i);
- * compiled for dim = 2 and 3, so that loops over dim unroll. The fields are a copy of the loop's own, which stays in registers. */
+ * compiled for dim = 2 and 3, so that loops over dim unroll. The loop copies the fields, so that
+ * they stay in registers. */
 #define MPS__LOOP(name, row, type)                                                        \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
     {                                                                                     \
@@ -69,7 +73,7 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
-/* MPS__LOOP() of rows that do not look at the dimension: compiled once. */
+/* MPS__LOOP() of rows that do not depend on the dimension: compiled once. */
 #define MPS__LOOP_ANY(name, row, type)                                                    \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
     {                                                                                     \
@@ -79,7 +83,7 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
-/* The next loop has rounds that do not depend on each other: arrays in it are the same or apart. */
+/* The iterations of the next loop are independent: its arrays are identical or disjoint. */
 #if defined(__clang__)
 #define MPS__INDEPENDENT _Pragma("clang loop vectorize(assume_safety)")
 #elif defined(__GNUC__)
@@ -88,14 +92,14 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
 #define MPS__INDEPENDENT
 #endif
 
-/* The next loop stays one in kernels of devices, where code for each round would be long and no faster. */
+/* Do not unroll the next loop in device kernels: the code would be long and no faster. */
 #ifdef MPS_DEVICE
 #define MPS__ROLLED _Pragma("clang loop unroll(disable)")
 #else
 #define MPS__ROLLED
 #endif
 
-/* MPS__LOOP() of rows that do next to nothing and do not look at the dimension: a vector loop on the host. */
+/* MPS__LOOP() of very cheap rows that do not depend on the dimension: a vector loop on the host. */
 #define MPS__LOOP_CHEAP(name, row, type)                                                  \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
     {                                                                                     \
@@ -106,10 +110,11 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
 
-/* Define the mps__loop `name` of work that the threads of one group of a device do together, MPS__TOGETHER of them:
+/* Define the mps__loop `name` for the MPS__TOGETHER threads of one group of a device:
  *   static void together(const type *fields, int64_t lane, bool any);
- * which is compiled for devices alone (MPS_DEVICE). All threads wait for each other by mps__thread_wait(), none under a condition that others do not
- * have; without `any` there is nothing to do. The host does the same by
+ * compiled for devices only (MPS_DEVICE). All threads synchronise by mps__thread_wait(), never
+ * under a condition that differs between threads; without `any` there is no work. The host runs
+ * instead
  *   static void whole(const type *fields); */
 #define MPS__GROUP(name, whole, together, type)                                           \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
@@ -121,16 +126,17 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
 
 /* Define the mps__values `name` from a row function
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
- * which sets values[0..sums-1] to the terms of the row, each 0 before, and raises the maxima behind them. */
+ * which sets values[0..sums-1] to the terms of the row, each 0 on entry, and updates the maxima
+ * after them. */
 #define MPS__VALUES(name, row, type, sums, maxima)                                                \
     MPS__VALUES_OF(name, (dim_ == 2 ? row(2, &given_, i, own_) : row(3, &given_, i, own_)), type, \
                    sums, maxima)
 
-/* MPS__VALUES() of rows that do not look at the dimension. */
+/* MPS__VALUES() of rows that do not depend on the dimension. */
 #define MPS__VALUES_ANY(name, row, type, sums, maxima) \
     MPS__VALUES_OF(name, row(MPS__ANY_DIM, &given_, i, own_), type, sums, maxima)
 
-/* Both; `work` is what a row does, with dim_, given_, i and own_. */
+/* Implementation of both; `work` is the code of a row, with dim_, given_, i and own_. */
 #define MPS__VALUES_OF(name, work, type, sums, maxima)                                    \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
                            mps_exact *sum_, double *maximum_)                             \
@@ -151,8 +157,9 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
 
-/* MPS__VALUES() for which the host has a function of a range, with the same terms:
- *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums, double *maxima); */
+/* MPS__VALUES() with a host function for a range, which has the same terms:
+ *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums,
+ *                     double *maxima); */
 #define MPS__VALUES_BY(name, row, range, type, sums, maxima)                              \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
                            mps_exact *sum_, double *maximum_)                             \
@@ -163,9 +170,9 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     }                                                                                     \
     static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
 
-/* Define the mps__values `name` that looks for the first row of a test
+/* Define the mps__values `name` that finds the first row that satisfies a test
  *   MPS_ROW bool is_it(const type *fields, int64_t i);
- * The lowest row is the largest of their negatives; doubles count exactly to 2^53. */
+ * The lowest row has the largest negative index; doubles are exact to 2^53. */
 #define MPS__FIRST(name, is_it, type)                                                          \
     MPS_ROW void name##_row(const int dim_, const type *fields_, int64_t i_, double *largest_) \
     {                                                                                          \

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pool of threads. A loop is a round: the caller opens it, works on its parts and takes over those that no thread has begun, closes it, and waits
- * only for parts that others have begun. So a thread that gets no core costs nothing, and a round needs no thread at all to end. */
+/* A pool of threads. A loop is a round: the caller opens it, works on its own parts and on parts
+ * that no thread has begun, closes it, and waits only for parts that others have begun. So a thread
+ * without a core costs nothing, and a round completes without any other thread. */
 #ifndef _GNU_SOURCE /* the build sets it, in front of plain.h */
 #define _GNU_SOURCE /* sched_getcpu() */
 #endif
@@ -16,47 +17,52 @@
 
 enum { CACHE_LINE = 64, LOOKS = 32 };
 
-/* Waiting threads spin for so long, then sleep [s]. Serial code between two loops of a step takes 1 to 30 microseconds, waking about 10. */
+/* Waiting threads spin for this time, then sleep [s]. Serial code between two loops of a step takes
+ * 1 to 30 microseconds, waking a thread about 10. */
 static const double SPIN = 50e-6;
 
-/* Where others have the cores, threads make loops slower than one would be. Time gained and lost is booked, measured at every so many rounds.
- * After so much loss [s] loops run in the calling thread for so many times as long, and for longer each time, at most so long [s]. Gains pay
- * for later losses up to a few time slices of the system: a core that is taken away now and then is no reason to rest. */
+/* If other processes use the cores, threads make loops slower than one thread would be. Gained and
+ * lost time is measured every MEASURED rounds. After a loss of MOST_LOSS [s] loops run in the
+ * calling thread for REST_PER_LOSS times that time, longer each time, at most REST_MOST [s]. Gains
+ * up to MOST_GAIN [s], a few time slices of the system, offset later losses: a core that is taken
+ * away occasionally is no reason to rest. */
 enum { MEASURED = 8 };
 static const double MOST_GAIN = 20e-3, MOST_LOSS = 0.3e-3, REST_PER_LOSS = 4, REST_MOST = 0.25;
 
-/* What a crew is at, in one number: how many workers are inside a round, whether it is open to more, and which round it is. */
+/* State of a crew in one number: number of workers in a round, whether the round is open, and its
+ * number. */
 #define INSIDE      UINT64_C(0xffff)
 #define OPEN        UINT64_C(0x10000)
 #define QUIT        UINT64_C(0x20000)
 #define ROUND_SHIFT 20
 
-/* A thread and the parts that it does first. */
+/* A thread and the parts that it runs first. */
 typedef struct seat {
     _Atomic int32_t next;
     int32_t end;
-    atomic_int core; /* where the thread was at the beginning of the round */
+    atomic_int core; /* core of the thread at the start of the round */
     struct mps__crew *crew;
     pthread_t thread;
-    char apart[2 * CACHE_LINE - 32]; /* no two threads write to one line, or to a pair of them */
+    /* avoids false sharing of a cache line or of a pair of lines */
+    char apart[2 * CACHE_LINE - 32];
 } seat;
 
 struct mps__crew {
     char before[2 * CACHE_LINE];
     _Atomic uint64_t state;
     char after[2 * CACHE_LINE];
-    atomic_int sleepers; /* workers that wait for `opened` */
+    atomic_int sleepers; /* workers waiting for `opened` */
     atomic_bool waiting; /* the caller waits for `empty` */
-    atomic_bool busy;    /* a round goes on: a loop inside it runs in its own thread */
+    atomic_bool busy;    /* a round is in progress: nested loops run in their own thread */
     pthread_mutex_t lock;
     pthread_cond_t opened, empty;
-    /* of the round, written while no thread is inside */
+    /* of the round, written while no worker is in it */
     mps_part_fn body;
     void *argument;
-    /* the caller's [s]: gains less losses, the last rest and its end (0: none goes on) */
+    /* of the caller [s]: gains minus losses, the last rest and its end (0: not resting) */
     double balance, rest, rest_until;
     int32_t seats;
-    seat seat[]; /* the first one is the caller's */
+    seat seat[]; /* the first one belongs to the caller */
 };
 
 static inline void relax(void)
@@ -68,9 +74,9 @@ static inline void relax(void)
 #endif
 }
 
-/* ---- waiting ----------------------------------------------------------------------------------------------------- */
+/* ---- waiting ---- */
 
-/* Whether a worker that was last in round `seen` has something to do. */
+/* Whether a worker that last saw round `seen` has work. */
 static inline bool has_news(struct mps__crew *c, uint64_t seen)
 {
     const uint64_t s = atomic_load(&c->state);
@@ -83,7 +89,7 @@ static inline bool is_empty(struct mps__crew *c, uint64_t unused)
     return !(atomic_load(&c->state) & INSIDE);
 }
 
-/* Number of the core that the calling thread is on, -1: not known. */
+/* Core of the calling thread, -1: unknown. */
 static int core_now(void)
 {
 #ifdef __linux__
@@ -93,18 +99,19 @@ static int core_now(void)
 #endif
 }
 
-/* Whether the calling thread is where another one was in this round, so that it would keep that one from working if it spun. */
+/* Whether the calling thread is on the core of another thread of this round and would block it by
+ * spinning. */
 static bool is_in_the_way(struct mps__crew *c, const seat *own)
 {
     const int core = core_now();
-    /* the caller looks at all others, they look at it */
+    /* the caller checks all others, they check the caller */
     const int32_t first = own == c->seat, end = own == c->seat ? c->seats : 1;
     for (int32_t k = first; k < end && core >= 0; k++)
         if (atomic_load_explicit(&c->seat[k].core, memory_order_relaxed) == core) return true;
     return false;
 }
 
-/* Look for SPIN seconds at most. */
+/* Spin for SPIN seconds at most. */
 static inline __attribute__((always_inline)) bool
 spin(seat *own, bool (*done)(struct mps__crew *, uint64_t), uint64_t seen)
 {
@@ -126,14 +133,14 @@ static void await_news(seat *own, uint64_t seen)
     struct mps__crew *c = own->crew;
     if (spin(own, has_news, seen)) return;
     pthread_mutex_lock(&c->lock);
-    /* before the last look: the caller looks for sleepers after it opened a round */
+    /* before the last check: the caller looks for sleepers after it opened a round */
     atomic_fetch_add(&c->sleepers, 1);
     while (!has_news(c, seen)) pthread_cond_wait(&c->opened, &c->lock);
     atomic_fetch_sub(&c->sleepers, 1);
     pthread_mutex_unlock(&c->lock);
 }
 
-/* @return how long it took, but for what is spun [s] */
+/* @return time taken, without spinning [s] */
 static double await_empty(struct mps__crew *c)
 {
     if (spin(&c->seat[0], is_empty, 0)) return 0;
@@ -153,9 +160,9 @@ static void wake(struct mps__crew *c, pthread_cond_t *condition)
     pthread_mutex_unlock(&c->lock);
 }
 
-/* ---- a round ----------------------------------------------------------------------------------------------------- */
+/* ---- a round ---- */
 
-/* The parts of one's own seat, then what is left of the others'. Returns their number. */
+/* Run the parts of the own seat, then the remaining parts of the others. Returns their number. */
 static int32_t take_parts(struct mps__crew *c, int32_t own)
 {
     int32_t taken = 0;
@@ -172,7 +179,8 @@ static int32_t take_parts(struct mps__crew *c, int32_t own)
     return taken;
 }
 
-/* Go into the open round unless it is the one seen last. What was written before it opened is seen inside. */
+/* Enter the open round unless it is the one seen last. Writes before it opened are visible
+ * inside. */
 static bool enter(struct mps__crew *c, uint64_t *seen)
 {
     uint64_t s = atomic_load(&c->state);
@@ -205,7 +213,7 @@ static void *work(void *argument)
     }
 }
 
-/* Book a gain, or a loss (negative) [s]. */
+/* Add a gain, or a loss (negative) [s]. */
 static void book(struct mps__crew *c, double gain)
 {
     c->balance = fmin(c->balance + gain, MOST_GAIN);
@@ -222,7 +230,7 @@ static bool is_resting(struct mps__crew *c)
     return c->rest_until > 0;
 }
 
-/* Processor time of the calling thread [s]: without what others took away from it. */
+/* Processor time of the calling thread [s]: excludes preemption. */
 static double processor_time(void)
 {
     struct timespec t;
@@ -254,14 +262,15 @@ static void run_round(struct mps__crew *c, int32_t parts, mps_part_fn body, void
     const int32_t taken = take_parts(c, 0);
     const double worked = measured ? processor_time() - before : 0;
     atomic_fetch_and(&c->state, ~OPEN);
-    /* Held up by threads that lost their cores in the middle of a part. Less than what the caller would have needed for their parts is no loss. */
+    /* Waiting for threads preempted in the middle of a part. Less than the caller's own time for
+     * their parts is no loss. */
     const double held_up = await_empty(c), all = held_up > 0 || measured ? mps__clock() - begin : 0;
     const double lost = fmax(held_up - (all - held_up) * (c->seats - 1), 0);
     if (lost > 0) book(c, -lost);
     if (measured && taken > 0) book(c, MEASURED * (worked * parts / taken - (all - lost)));
 }
 
-/* ---- a crew ------------------------------------------------------------------------------------------------------ */
+/* ---- a crew ---- */
 
 static void drop_crew(mps__pool *p)
 {
@@ -278,7 +287,7 @@ static void drop_crew(mps__pool *p)
     mps__free(p->context, c);
 }
 
-/* Start as many threads as there can be. They take no signals: those are the host's. */
+/* Start as many threads as possible. They block signals, which belong to the application. */
 static void start_threads(struct mps__crew *c, int32_t seats)
 {
     sigset_t all, before;
@@ -293,7 +302,7 @@ static void start_threads(struct mps__crew *c, int32_t seats)
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
-/* Without memory or threads loops run in the calling thread: no failure, so no error text. */
+/* Without memory or threads loops run in the calling thread: no failure, hence no error text. */
 static void make_crew(mps__pool *p)
 {
     const mps_allocator *a = &p->context->allocator;
@@ -331,7 +340,7 @@ static void run_pool(void *user, int32_t parts, mps_part_fn body, void *argument
     for (int32_t part = 0; part < parts; part++) body(argument, part);
 }
 
-/* ---- the pool ---------------------------------------------------------------------------------------------------- */
+/* ---- the pool ---- */
 
 mps_status mps_parallel_init(mps_parallel *parallel, size_t size)
 {
@@ -374,14 +383,14 @@ void mps__pool_free(mps__pool *p)
     drop_crew(p);
 }
 
-/* ---- loops ------------------------------------------------------------------------------------------------------- */
+/* ---- loops ---- */
 
 typedef struct zeroing {
     const mps__block *blocks;
     int32_t count;
 } zeroing;
 
-/* Numbers begin..end-1 of all blocks in a row. */
+/* Zero the numbers begin..end-1 of the concatenated blocks. */
 static void zero_rows(void *argument, int64_t begin, int64_t end)
 {
     const zeroing *z = argument;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The threads of a handle, or its host's; what loops of the core share. */
+/* Threads of a handle or of the application; helpers of the loops of the core. */
 #ifndef MPS_CORE_PARALLEL_H
 #define MPS_CORE_PARALLEL_H
 
@@ -8,29 +8,30 @@
 
 enum { MPS__THREADS_MOST = 1024 };
 
-/* The parallel-for that a handle uses. Its address must stay the same: `parallel.user` is the pool
- * itself, and all loops have a pointer to `parallel`. */
+/* Parallel-for of a handle. Its address must not change: `parallel.user` points to the pool, and
+ * all loops point to `parallel`. */
 typedef struct mps__pool {
-    mps_parallel parallel; /* what loops are given */
+    mps_parallel parallel; /* passed to loops */
     mps__context *context;
-    bool own;               /* the threads are those of `crew`, not a host's */
-    bool tried;             /* there is a crew, or none could be had */
-    struct mps__crew *crew; /* threads and what they share; NULL: none yet */
+    bool own;               /* threads of `crew`, not of the application */
+    bool tried;             /* the crew exists, or could not be created */
+    struct mps__crew *crew; /* threads and their shared state; NULL: not created yet */
 } mps__pool;
 
-/* A pool of one thread. Nothing is allocated and no thread is made before a loop needs it. */
+/* Initialise a pool of one thread. Memory and threads are created when a loop needs them. */
 void mps__pool_init(mps__pool *p, mps__context *context);
-/* Use the host's parallel-for, or threads of the pool's own where host->run is NULL; host->threads of them if that is above 1. */
+/* Use the application's parallel-for; if host->run is NULL use threads of the pool, host->threads
+ * of them if that is above 1. */
 mps_status mps__pool_set(mps__pool *p, const mps_parallel *host, const char *what);
-/* Another number of threads; those of the pool are joined, and made again when they are needed. */
+/* Set the number of threads; the pool joins its threads and creates them again when needed. */
 void mps__pool_resize(mps__pool *p, int32_t threads);
-/* Join the threads. The pool may be used again. */
+/* Join the threads. The pool remains usable. */
 void mps__pool_free(mps__pool *p);
 
-/* Rows of loops that do next to nothing a row: fewer are not worth a second thread. */
+/* Rows per range of very cheap loops: fewer are not worth a second thread. */
 enum { MPS__ROWS_CHEAP = 4096 };
 
-/* Numbers that are set to zero together. */
+/* Numbers to be set to zero. */
 typedef struct mps__block {
     double *values;
     int64_t count;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of an engine of ranks: what is checked, counted, and what a failure does. */
+/* Message-passing calls: checks, counters, failures. */
 #include "ranks.h"
 #include <stdio.h>
 #include <string.h>
@@ -70,7 +70,7 @@ mps_status mps__ranks_tell(mps__ranks *r, mps_status status)
     return status;
 }
 
-/* Whether a call is to be made; counts it. */
+/* Whether the call is executed; counts it. */
 static bool begin(mps__ranks *r, int64_t bytes)
 {
     if (!mps__ranks_many(r) || r->failed) return false;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Prefix sums. Blocks are summed, then their sums in the same way, and each block gets the sum of those before it. Integers: the order of
- * additions changes nothing. */
+/* Prefix sums: sum the blocks, scan the block sums recursively, add to each block the sum of all
+ * previous blocks. Integers: independent of the order of additions. */
 #include "scan.h"
 
-/* Numbers, and the sum of each block of them; of a single block it is not kept. */
+/* Numbers, and the sum of each block; not stored for a single block. */
 typedef struct level {
     int64_t *value, *sum;
     int64_t n;
@@ -20,7 +20,7 @@ MPS_ROW void sum_row(const int dim, const level *l, int64_t block)
 }
 MPS__LOOP_ANY(sum_blocks, sum_row, level)
 
-/* The sums are those of all blocks up to each by now. */
+/* `sums` holds the scanned block sums. */
 MPS_ROW void raise_row(const int dim, const level *l, int64_t i)
 {
     (void)dim;
@@ -42,7 +42,7 @@ int64_t mps__scan_room(int64_t n)
 
 void mps__scan(const mps_parallel *p, int64_t *values, int64_t n)
 {
-    enum { LEVELS = 10 }; /* 128^9 is more than a number of rows can be */
+    enum { LEVELS = 10 }; /* 128^9 exceeds any number of rows */
     level list[LEVELS];
     int count = 0;
     for (int64_t *value = values; n > 0; n = n > MPS__SCAN_BLOCK ? blocks_of(n) : 0) {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs that are in order become runs of several: a place knows its new one from its own in its run, and from how many of each other run come before
- * it. */
+/* Merge several sorted runs into one: the new index of an element is its index in its own run plus
+ * the number of smaller elements in each other run. */
 #include "sort.h"
 #include "loop.h"
 
@@ -11,7 +11,7 @@ MPS_ROW int64_t tie(const mps__sorting *s, int64_t a)
     return s->id ? s->id[s->order[a]] : s->order[a];
 }
 
-/* Places of a run that come before place a. */
+/* Number of elements of a run that precede element a. */
 MPS_ROW int64_t count_before(const mps__sorting *s, int64_t a, int64_t run)
 {
     const int64_t begin = run * s->run < s->n ? run * s->run : s->n,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Structs that cross the interface. */
+/* Structs of the public interface. */
 #include "base.h"
 #include <mps/device.h>
 #include <mps/list.h>
@@ -14,7 +14,7 @@ enum { MPS__VERSIONS = 4 };
 
 typedef struct known_struct {
     const char *type;
-    /* ascending, of the versions that changed it; the last is today's */
+    /* ascending, of the versions that changed it; the last is the current one */
     size_t size[MPS__VERSIONS];
 } known_struct;
 
@@ -81,10 +81,12 @@ static const size_t *sizes_of(const char *type)
     return NULL;
 }
 
-/* No version will have larger structs [bytes]: a size that was never set is mostly beyond, and all bytes up to a size are read. */
+/* No version will have larger structs [bytes]. An uninitialised size is usually larger, and all
+ * bytes up to a size are read. */
 static const size_t LARGEST = 4096;
 
-/* The size of a version, or more than today's: of a newer version. Other sizes end before the first version's members, or cut one. */
+/* Whether this is the size of a version, or larger than the current one (a newer version). Other
+ * sizes end before the first version's members, or cut one. */
 static bool is_size(const size_t *size, size_t given)
 {
     int last = 0;
@@ -100,7 +102,7 @@ mps_status mps__struct_check(mps__context *c, const char *type, const void *give
     MPS__CHECK(c, given, "%s is NULL", type);
     memcpy(&bytes, given, sizeof bytes);
     if (size && is_size(size, bytes)) return MPS_OK;
-    if (strstr(type, "_ops")) /* tables of plug-ins have no _init function */
+    if (strstr(type, "_ops")) /* plug-in tables have no _init function */
         return mps__fail(c, MPS_E_ARG,
                          "%s.struct_size is %u: set it to sizeof(%s); version 1.0.0 has %zu", type,
                          bytes, type, size ? size[0] : 0);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Several exact sums of rows: terms are gathered in blocks, which are added faster than single terms. */
+/* Several exact sums over rows: terms are buffered in blocks, which are faster to add than single
+ * terms. */
 #ifndef MPS_CORE_TERMS_H
 #define MPS_CORE_TERMS_H
 
@@ -10,7 +11,7 @@ enum { MPS__TERMS_BLOCK = 128 };
 typedef struct mps__terms {
     mps_exact *sums; /* [count] */
     int32_t count;   /* MPS_PARALLEL_VALUES at most */
-    int32_t rows;    /* gathered */
+    int32_t rows;    /* buffered */
     double term[MPS_PARALLEL_VALUES][MPS__TERMS_BLOCK];
 } mps__terms;
 
@@ -21,14 +22,14 @@ static inline void mps__terms_begin(mps__terms *t, mps_exact *sums, int32_t coun
     t->rows = 0;
 }
 
-/* Add what is still gathered. Call it after the last row. */
+/* Add the buffered terms. Call it after the last row. */
 static inline void mps__terms_end(mps__terms *t)
 {
     for (int32_t k = 0; k < t->count; k++) mps_exact_add(&t->sums[k], t->rows, t->term[k]);
     t->rows = 0;
 }
 
-/* The terms of a row, [count]. */
+/* Add the terms of a row, [count]. */
 static inline void mps__terms_add(mps__terms *t, const double *own)
 {
     for (int32_t k = 0; k < t->count; k++) t->term[k][t->rows] = own[k];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Archives: written to a file part by part, read as a whole. */
+/* Archives: written part by part, read as a whole. */
 #define _POSIX_C_SOURCE 200809L
 #include "archive.h"
 #include <errno.h>
@@ -20,7 +20,7 @@ typedef struct head {
 
 typedef struct part {
     char name[MPS__PART_TITLE];
-    uint32_t bytes, checksum; /* the checksum is that of the part with 0 in its place */
+    uint32_t bytes, checksum; /* the checksum is computed with 0 in its own field */
     int64_t count;
 } part;
 
@@ -45,7 +45,7 @@ static uint32_t part_checksum(part p, const void *elements)
     return mps__checksum(mps__checksum(0, &p, sizeof p), elements, (size_t)p.count * p.bytes);
 }
 
-/* Bytes of the elements in the file. */
+/* Padded size of the elements in the file, in bytes. */
 static int64_t padded(const part *p)
 {
     return (p->count * (int64_t)p->bytes + 7) / 8 * 8;
@@ -88,8 +88,9 @@ static mps_status io_failed(mps__context *c, const char *what, const char *path)
     return mps__fail(c, MPS_E_IO, "cannot %s \"%.300s\": %s", what, path, strerror(errno));
 }
 
-/* The new name is on the disk as well. `path` is cut to its folder. A folder that may not be read, and a file system that knows nothing of this,
- * give no more than rename() does. */
+/* Flush the folder, so that the new name is on the disk. Truncates `path` to its folder. If the
+ * folder is not readable, or the file system does not support this, the guarantee is only that of
+ * rename(). */
 static mps_status sync_folder(mps__context *c, char *path)
 {
     char *slash = strrchr(path, '/');
@@ -103,7 +104,7 @@ static mps_status sync_folder(mps__context *c, char *path)
     return status;
 }
 
-/* A device or the like is not replaced by a file. */
+/* Refuse to replace a device or another special file. */
 static mps_status check_place(mps__context *c, const char *path)
 {
     struct stat there;
@@ -126,7 +127,7 @@ mps_status mps__archive_create(mps__archive *a, const char *path)
     return MPS_OK;
 }
 
-/* On the disk before it takes the place of what was there: a machine that stops in between has one or the other. */
+/* Flush the file before it replaces the previous one: after a crash one or the other exists. */
 static bool close_file(mps__archive *a)
 {
     if (!a->error && (fflush(a->file) != 0 || fsync(fileno(a->file)) != 0)) note_error(a);
@@ -184,7 +185,7 @@ static mps_status check_head(const mps__archive *a, const char *path)
     return MPS_OK;
 }
 
-/* The part at an offset, whole and as it was written; false if it is not. */
+/* Read the part at an offset; false if it is incomplete or damaged. */
 static bool part_at(const mps__archive *a, int64_t at, part *p)
 {
     if (a->size - at < (int64_t)sizeof *p) return false;
@@ -194,7 +195,7 @@ static bool part_at(const mps__archive *a, int64_t at, part *p)
            memchr(p->name, 0, sizeof p->name);
 }
 
-/* The zeros behind the elements count as well: a file that is not what was written is not trusted. */
+/* The padding is checked too: only a file exactly as written is accepted. */
 static bool part_whole(const part *p, const unsigned char *elements)
 {
     for (int64_t k = p->count * (int64_t)p->bytes; k < padded(p); k++)
@@ -231,7 +232,7 @@ mps_status mps__archive_load(mps__archive *a, const char *path)
     return status == MPS_OK ? check_parts(a, path) : status;
 }
 
-/* Where the elements of a part begin, -1: it is not there. */
+/* Offset of a part's elements, -1: not found. */
 static int64_t find_part(const mps__archive *a, const char *name, part *p)
 {
     for (int64_t at = (int64_t)sizeof(head); part_at(a, at, p) && strcmp(p->name, last_part) != 0;

@@ -8,13 +8,14 @@
 
 #define DAMAGED(...) return mps__fail(c, MPS_E_IO, "the checkpoint is damaged: " __VA_ARGS__)
 
-/* Ids beyond this number would overflow in the life of a handle. */
+/* Larger ids could overflow during the life of a handle. */
 static const int64_t MOST_IDS = INT64_C(1) << 62;
 
-/* Largest difference of the entries of a stored rotation from those of its angles: other C libraries round sin and cos differently. */
+/* Largest difference between the entries of a stored rotation and those computed from its angles:
+ * other C libraries round sin and cos differently. */
 static const double ROTATION = 1e-9;
 
-/* Most samples that the number of the next one may differ from its time by rounding. */
+/* Largest deviation of the next sample number from its time, due to rounding. */
 static const double SAMPLES = 2;
 
 static mps_status check_range(mps__context *c, const char *name, double value, double least,
@@ -25,7 +26,7 @@ static mps_status check_range(mps__context *c, const char *name, double value, d
     return MPS_OK;
 }
 
-/* Finite, with room for products of four: what comes of them must be finite as well. */
+/* Finite, with margin for products of four: derived numbers must be finite as well. */
 static const double most_of_all = 1e75;
 
 static mps_status check_within(mps__context *c, const char *name, const double *values,
@@ -80,7 +81,7 @@ mps_status mps__check_load(mps__context *c, const mps__load *l)
     return check_finite(c, "load", l->mass, 36);
 }
 
-/* A pose that was not `set` yet has no rotation. */
+/* A pose with `set` false has no rotation. */
 static mps_status check_pose(mps__context *c, const mps__arrived *a, const char *name,
                              const mps__pose *p, bool set)
 {
@@ -169,7 +170,7 @@ mps_status mps__check_scalars(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_range(c, "state.crossing_time", s->crossing_time, 0, most));
     if (s->dt_previous != 0)
         MPS__TRY(check_range(c, "state.dt_previous", s->dt_previous, 1 / most, most));
-    if (s->dt_before != 0) /* speeds of the tank are divided by it */
+    if (s->dt_before != 0) /* velocities of the tank are divided by it */
         MPS__TRY(check_range(c, "state.dt_before", s->dt_before, 1 / most, most));
     MPS__TRY(check_range(c, "state.jump", s->jump.accel, 0, most));
     MPS__TRY(check_range(c, "state.spread", s->spread, 0, most));
@@ -190,7 +191,7 @@ static const void *field(const mps__arrived *a, const char *name)
     const mps__particles *s = &a->sim->world.particles;
     for (int32_t k = 0; k < s->fields; k++)
         if (strcmp(s->field[k].name, name) == 0) return a->field[k];
-    return NULL; /* not reached: the names are the library's own */
+    return NULL; /* not reached: the names are internal */
 }
 
 static mps_status check_tags(mps__context *c, const mps__arrived *a, const char *name,
@@ -220,7 +221,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Down the heap from place k of n, so that a parent is not less than its children. */
+/* Sift down from index k of a heap of n, so that a parent is not less than its children. */
 static void sink(int64_t *v, int64_t k, int64_t n)
 {
     for (int64_t child; (child = 2 * k + 1) < n; k = child) {
@@ -232,7 +233,7 @@ static void sink(int64_t *v, int64_t k, int64_t n)
     }
 }
 
-/* Heap sort: qsort() may take memory that is not the handle's. */
+/* Heap sort: qsort() may allocate memory outside of the handle's allocator. */
 static void sort_ids(int64_t *v, int64_t n)
 {
     for (int64_t k = n / 2; k-- > 0;) sink(v, k, n);
@@ -286,7 +287,7 @@ static mps_status check_reals(mps__context *c, const mps__arrived *a)
     return MPS_OK;
 }
 
-/* Fluid is of a phase that is defined; a dummy that is linked is linked to a wall. */
+/* Fluid must have a defined phase; a linked dummy must be linked to a wall. */
 static mps_status check_links(mps__context *c, const mps__arrived *a)
 {
     const int32_t *kind = field(a, "kind"), *phase = field(a, "phase"), *wall = field(a, "wall_of");
@@ -301,7 +302,7 @@ static mps_status check_links(mps__context *c, const mps__arrived *a)
     return MPS_OK;
 }
 
-/* The text of the set-up was compared; the particles must be those it speaks of. */
+/* The set-up text was compared; the solids must match it. */
 static mps_status check_solids(mps__context *c, const mps__arrived *a)
 {
     const mps__particles *s = &a->sim->world.particles;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks of the numbers in a checkpoint. A checksum detects damage; it does not detect wrong numbers from another program. All
- * checks run before anything changes. */
+/* Checks of the numbers in a checkpoint. A checksum detects damage, but not wrong numbers from
+ * another program. All checks run before anything changes. */
 #ifndef MPS_CORE_CHECKPOINT_CHECK_H
 #define MPS_CORE_CHECKPOINT_CHECK_H
 
 #include "checkpoint.h"
 
-/* The state in a checkpoint. Arrays are borrowed. */
+/* The state in a checkpoint. The arrays belong to the archive. */
 typedef struct mps__arrived {
     const mps_sim *sim;
     mps__state state;
@@ -20,14 +20,14 @@ typedef struct mps__arrived {
 
 /* Time, steps, poses, budget, flags. */
 mps_status mps__check_scalars(mps__context *c, const mps__arrived *a);
-/* Fields, tags, ids, links, and the solids, which must be those of the simulation. */
+/* Fields, tags, ids, links, and the solids, which must equal those of the simulation. */
 mps_status mps__check_particles(mps__context *c, const mps__arrived *a);
-/* What a body that carries the tank keeps. */
+/* State of a rigid body that carries the tank. */
 mps_status mps__check_body(mps__context *c, const mps__body_state *b);
 mps_status mps__check_load(mps__context *c, const mps__load *l);
-/* What a model keeps for all particles. */
+/* Numbers of a model (its state). */
 mps_status mps__check_numbers(mps__context *c, const mps_model_ops *ops, const mps__numbers *s);
-/* What probe number `probe` keeps. `waits` is the flag as it stands in the file. */
+/* Series of probe number `probe`. `waits` is the flag in the file. */
 mps_status mps__check_series(mps__context *c, const mps__arrived *a, int64_t probe,
                              const mps__series *s, int64_t waits);
 

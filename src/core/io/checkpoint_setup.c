@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The set-up of a simulation as a text. */
+/* Set-up of a simulation as text. */
 #include "checkpoint.h"
 #include "step.h"
 #include <stdarg.h>
@@ -8,7 +8,7 @@
 
 enum { LINE = 256 };
 
-/* One line. Numbers have all their digits. */
+/* Write one line. Numbers have all digits. */
 static void line(mps__text *t, const char *format, ...) __attribute__((format(printf, 2, 3)));
 static void line(mps__text *t, const char *format, ...)
 {

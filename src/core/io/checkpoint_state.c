@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The state of a simulation, what the next step depends on and what has been booked so far. */
+/* State of a simulation: the input of the next step, and the accumulated budgets. */
 #include "checkpoint_check.h"
 #include "plates.h"
 #include "step.h"
@@ -10,7 +10,7 @@
 
 enum { SLOTS = 32 };
 
-/* One thing that is stored as it is in memory. */
+/* An object stored as in memory. */
 typedef struct slot {
     const char *name;
     void *at;
@@ -32,18 +32,18 @@ static int list_slots(mps__world *w, slot out[SLOTS])
     return (int)(sizeof all / sizeof all[0]);
 }
 
-/* Whether dummies know their walls, and whether the candidates of the last search still hold. */
+/* Whether dummies are linked to walls, and whether the candidates of the last search are valid. */
 typedef struct lists {
     int32_t linked, listed;
 } lists;
 
-/* What a series is beside its arrays. */
+/* State of a series without its arrays. */
 typedef struct series_state {
     int64_t step, waits, next;
     double start;
 } series_state;
 
-/* The load of the last step, without the flags of the user and of the next step. */
+/* Load of the last step, without the flags of the user and of the next step. */
 typedef struct load_state {
     double dt, at[3], force[6], accel[6], mass[36];
     int32_t has_mass, iterations;
@@ -61,7 +61,7 @@ static const char *probe_title(char out[MPS__PART_TITLE], int64_t probe, const c
     return out;
 }
 
-/* Numbers of active model number `model`, in the order in which the set-up names them. */
+/* Part name of the numbers of active model number `model`, in the order of the set-up. */
 static const char *model_title(char out[MPS__PART_TITLE], int32_t model)
 {
     snprintf(out, MPS__PART_TITLE, "numbers of model %d", (int)model);
@@ -78,14 +78,14 @@ static size_t element(const mps__field *f)
     return (size_t)f->components * f->size;
 }
 
-/* What only ranks have is found anew from the rest: the file is the same for any number of ranks. */
+/* Fields of ranks are not stored but rebuilt: the file is the same for any number of ranks. */
 static bool is_stored(const mps__world *w, int32_t field)
 {
     const mps__particles *s = &w->particles;
     return s->field[field].data != (void **)&s->wall_id;
 }
 
-/* ---- out ---- */
+/* ---- writing ---- */
 
 static void put_particles(const mps__world *w, mps__archive *a)
 {
@@ -99,7 +99,7 @@ static void put_particles(const mps__world *w, mps__archive *a)
     const lists have = {linked,
                         linked && listed && (w->lists.neighbours.valid || w->lists.listed_at)};
     mps__archive_put(a, "lists", &have, sizeof have, 1);
-    /* the order of the particles and the time of the next search are those of the last one */
+    /* the particle order and the time of the next search depend on the last search */
     if (have.listed && w->lists.listed_at)
         mps__archive_put(a, "searched", w->lists.listed_at, sizeof(double), s->n * s->dim);
     else if (have.listed)
@@ -133,7 +133,7 @@ static void put_numbers(const mps__models *m, mps__archive *a)
                              m->on[k].state.count);
 }
 
-/* Rows between the checkpoint and the first step after it are between two loads. */
+/* Output rows between the checkpoint and the first step after it interpolate from this load. */
 static void put_load(const mps__load *l, mps__archive *a)
 {
     load_state out = {.dt = l->dt, .has_mass = l->has_mass, .iterations = l->iterations};
@@ -159,9 +159,10 @@ void mps__state_put(mps_sim *sim, mps__archive *a)
     put_numbers(&sim->world.models, a);
 }
 
-/* ---- in ---- */
+/* ---- reading ---- */
 
-/* A state on its way in: arrays of the archive, and new ones that wait to take their places. */
+/* State during reading: arrays of the archive, and new arrays that will replace those of the
+ * simulation. */
 typedef struct arrival {
     mps_sim *sim;
     const mps__archive *a;
@@ -169,7 +170,7 @@ typedef struct arrival {
     slot slots[SLOTS];
     int count; /* of the slots */
     const void *value[SLOTS];
-    const void *body; /* NULL: none carries the tank */
+    const void *body; /* NULL: no rigid body carries the tank */
     mps__load load;   /* of the last step */
     mps__arrived arrived;
     lists have;
@@ -178,7 +179,7 @@ typedef struct arrival {
     mps__numbers numbers[MPS__MODELS_ACTIVE]; /* of each active model */
 } arrival;
 
-/* A part of so many elements. */
+/* Elements of a part, which must have `wanted` elements. */
 static const void *part(const arrival *v, const char *name, size_t bytes, int64_t wanted)
 {
     int64_t count;
@@ -198,14 +199,14 @@ static mps_status find_slots(arrival *v)
     return MPS_OK;
 }
 
-/* What a slot will be. */
+/* New value of a slot. */
 static void slot_value(const arrival *v, const void *at, void *value)
 {
     for (int k = 0; k < v->count; k++)
         if (v->slots[k].at == at) memcpy(value, v->value[k], v->slots[k].size);
 }
 
-/* The scalars of the file, in place of those of the simulation. */
+/* Scalars of the file, instead of those of the simulation. */
 static mps_status find_scalars(arrival *v)
 {
     mps__world *w = &v->sim->world;
@@ -221,7 +222,7 @@ static mps_status find_scalars(arrival *v)
     return mps__check_scalars(v->a->context, a);
 }
 
-/* A body goes on with its own pose; other motions are compared. */
+/* A rigid body continues with its stored pose; other motions are compared. */
 static mps_status find_body(arrival *v)
 {
     mps__body_state body;
@@ -232,7 +233,7 @@ static mps_status find_body(arrival *v)
     return mps__check_body(v->a->context, &body);
 }
 
-/* A simulation that does not watch the load does not know it after a checkpoint either. */
+/* Without load recording in the simulation the load stays unknown after a checkpoint. */
 static mps_status find_load(arrival *v)
 {
     const mps__load *now = &v->sim->world.load;
@@ -284,7 +285,7 @@ static mps_status find_particles(arrival *v)
     return MPS_OK;
 }
 
-/* A copy of a part of an array that grows. */
+/* Copy a part into a new growing array. */
 static mps_status copy_part(const arrival *v, const char *name, size_t bytes, double **copy,
                             int64_t *count)
 {
@@ -350,7 +351,7 @@ static mps_status find_numbers(arrival *v)
     return MPS_OK;
 }
 
-/* The tank must be where it was, if a motion moves it. */
+/* The tank must be at its stored position, if a motion moves it. */
 static mps_status check_motion(const arrival *v)
 {
     mps__world *w = &v->sim->world;
@@ -366,7 +367,7 @@ static mps_status check_motion(const arrival *v)
     return MPS_OK;
 }
 
-/* Nothing here can fail but the first call, which changes nothing then. */
+/* Commit the state. Only the first call can fail; it changes nothing then. */
 static mps_status move_in(arrival *v)
 {
     mps__world *w = &v->sim->world;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One frame for ParaView: XML PolyData (.vtp) with appended raw data, and the list of the pieces that ranks wrote (.pvtp). */
+/* One frame for ParaView: XML PolyData (.vtp) with appended raw data, and the list of the ranks'
+ * pieces (.pvtp). */
 #include "frame_file.h"
 #include "gather.h"
 #include <string.h>
 
 enum { CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4 };
 
-/* How a column's numbers are stored in the file. */
+/* Storage type of a column in the file. */
 typedef enum stored { AS_FLOAT32, AS_FLOAT64, AS_UINT8, AS_INT32, AS_INT64 } stored;
 
 static const struct {
@@ -18,10 +19,11 @@ static const struct {
 typedef struct column {
     const char *name;
     stored type;
-    /* numbers per particle in memory and in the file; the file's third of a 2-D vector is zero */
+    /* numbers per particle in memory and in the file; in the file the third component of a 2-D
+     * vector is zero */
     int32_t stride, width;
     const void *data;
-    /* NULL, or what the numbers of particle i are in the frame of the tank */
+    /* NULL, or a function that computes the values of particle i in the tank frame */
     void (*in_tank)(const mps__world *w, int64_t i, double out[3]);
 } column;
 
@@ -31,7 +33,7 @@ typedef struct frame {
     const mps__particles *s;
     FILE *file;
     int64_t points;
-    uint64_t offset; /* where the next array begins behind the '_' */
+    uint64_t offset; /* offset of the array after the '_' */
     int32_t columns;
     column column[COLUMNS];
 } frame;
@@ -83,7 +85,7 @@ static void place_in_tank(const mps__world *w, int64_t i, double out[3])
     mps__motion_to_tank(&w->motion, &w->motion.now, w->particles.x + i * w->particles.dim, out);
 }
 
-/* Relative to the tank. */
+/* Velocity relative to the tank. */
 static void velocity_in_tank(const mps__world *w, int64_t i, double out[3])
 {
     double X[3], v[3];
@@ -94,7 +96,7 @@ static void velocity_in_tank(const mps__world *w, int64_t i, double out[3])
     mps__motion_rotate_back(&w->motion, &w->motion.now, v, out);
 }
 
-/* Points first, then what belongs to them. */
+/* Points first, then their data. */
 static void list_columns(frame *f)
 {
     const mps__particles *s = f->s;
@@ -136,7 +138,7 @@ static void print_column(frame *f, const column *c)
     print_array(f, c->name, stored_type[c->type].name, c->width, column_bytes(f, c));
 }
 
-/* Names of the parts: each a list of its characters, with a 0 behind it. */
+/* Names of the parts: each a list of its characters, terminated by a 0. */
 static void print_parts(const frame *f)
 {
     fprintf(f->file,
@@ -183,7 +185,7 @@ static void print_xml(frame *f)
 
 /* ---- data ---- */
 
-/* The numbers of a particle. */
+/* Values of a particle. */
 static void fetch(const frame *f, const column *c, int64_t i, double out[9])
 {
     memset(out, 0, 9 * sizeof *out);
@@ -193,7 +195,7 @@ static void fetch(const frame *f, const column *c, int64_t i, double out[9])
         memcpy(out, (const double *)c->data + i * c->stride, (size_t)c->stride * sizeof *out);
 }
 
-/* One number in the file's type, d if it is a real one; returns its bytes. */
+/* Convert one number to the file's type, from d if it is real; returns its bytes. */
 static size_t store(unsigned char *out, const column *c, int64_t place, double d)
 {
     float single = (float)d;
@@ -240,7 +242,7 @@ static void write_column(frame *f, const column *c)
     fwrite(block, 1, used, f->file);
 }
 
-/* first, first + 1, ...: one number for each point. */
+/* Write first, first + 1, ...: one number per point. */
 static void write_numbers(frame *f, int32_t first)
 {
     int32_t block[CHUNK];
@@ -252,7 +254,7 @@ static void write_numbers(frame *f, int32_t first)
     }
 }
 
-/* One cell for each point, so that filters that choose cells choose particles. */
+/* One cell per point, so that cell filters select particles. */
 static void write_cells(frame *f)
 {
     write_numbers(f, 0); /* points of the cells */

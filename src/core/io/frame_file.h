@@ -7,9 +7,10 @@
 #include <mps/output.h>
 #include <stdio.h>
 
-/* Particles of these kinds: those of the store that are no ghosts. kinds: a sum of MPS_FRAMES_... */
+/* Write the particles of these kinds: of the store, without ghosts. kinds: a sum of
+ * MPS_FRAMES_... */
 void mps__frame_write(const mps__world *world, int32_t kinds, FILE *file);
-/* What the pieces STEM_0000.vtp, ... in the same folder have, which ranks wrote. */
+/* Write the list of the pieces STEM_0000.vtp, ... in the same folder, which the ranks wrote. */
 void mps__frame_write_pieces(const mps__world *world, const char *stem, int32_t pieces, FILE *file);
 
 const char *mps__frame_byte_order(void);

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames for ParaView: XML PolyData (.vtp) with appended raw data, and the .pvd series that names them with their times.
- * Every file is written beside its place and renamed, so that a reader never sees half a file.
+/* Frames for ParaView: XML PolyData (.vtp) with appended raw data, and the .pvd series that lists
+ * their names and times. Every file is written under a temporary name and renamed, so that a reader
+ * never sees an incomplete file.
  *
- * On many ranks rank 0 alone has the series; the others write pieces, or nothing. */
+ * On many ranks only rank 0 has the series; the others write pieces, or nothing. */
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
 #include "frame_file.h"
@@ -19,22 +20,22 @@ enum { NAME_SIZE = 48, LINE_SIZE = 256 };
 /* A frame of the series. */
 typedef struct stamp {
     double t;
-    int64_t number; /* of its files */
+    int64_t number; /* in its file names */
     bool pieces;    /* .pvtp */
 } stamp;
 
 struct mps_frames {
-    mps__world *world; /* borrowed */
+    mps__world *world; /* not owned */
     int32_t kinds;
     char name[NAME_SIZE];
-    char *folder, *path, *temporary; /* the last two are room for file names */
+    char *folder, *path, *temporary; /* the last two are buffers for file names */
     size_t path_size;
     int64_t count, capacity;
     stamp *frame;
-    bool continues;        /* frames of a run before this one are in it */
+    bool continues;        /* the series has frames of an earlier run */
     bool pieces;           /* each rank writes its own particles */
-    bool steps;            /* the number of a frame is that of its step */
-    int64_t place, number; /* of the frame that is written */
+    bool steps;            /* a frame's number is its step number */
+    int64_t place, number; /* of the current frame */
 };
 
 static mps_status io_failed(const mps_frames *f, const char *what, const char *path)
@@ -48,7 +49,7 @@ static const char series_head[] = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Coll
 static const char series_time[] = "<DataSet timestep=\"";
 static const char series_end[] = "</Collection>\n</VTKFile>\n";
 
-/* The line of a frame in the .pvd. */
+/* Line of a frame in the .pvd file. */
 static void series_line(const mps_frames *f, const stamp *frame, char line[LINE_SIZE])
 {
     snprintf(line, LINE_SIZE, "%s%.17g\" part=\"0\" file=\"%s/%s_%06lld.%s\"/>\n", series_time,
@@ -78,7 +79,7 @@ static void write_pieces(const mps_frames *f, FILE *file)
     mps__frame_write_pieces(f->world, stem, f->world->ranks.count, file);
 }
 
-/* Write f->path through f->temporary. */
+/* Write f->path via f->temporary. */
 static mps_status write_file(const mps_frames *f, void (*write)(const mps_frames *f, FILE *file))
 {
     snprintf(f->temporary, f->path_size + 8, "%s.tmp", f->path);
@@ -113,7 +114,8 @@ static mps_status create_folder(const mps_frames *f)
     return MPS_OK;
 }
 
-/* What may be behind the number of a frame: ".vtp", ".pvtp" or "_<rank>.vtp", and ".tmp" where a program was killed. */
+/* Valid text after the number of a frame: ".vtp", ".pvtp" or "_<rank>.vtp", and ".tmp" if a program
+ * was killed. */
 static bool is_frame_end(const char *end)
 {
     static const char *const ends[] = {".vtp", ".vtp.tmp", ".pvtp", ".pvtp.tmp"};
@@ -131,7 +133,7 @@ static bool has_number(const mps_frames *f, int64_t number)
     return false;
 }
 
-/* "<name>_<digits>..." that the series does not name. */
+/* Whether this is a file "<name>_<digits>..." that the series does not list. */
 static bool is_old_frame(const mps_frames *f, const char *file)
 {
     size_t length = strlen(f->name);
@@ -141,7 +143,8 @@ static bool is_old_frame(const mps_frames *f, const char *file)
     return count >= 6 && is_frame_end(digits + count) && !has_number(f, strtoll(digits, NULL, 10));
 }
 
-/* Frames of an earlier run in the same folder, which the new series may not reach; the .pvd names them no more. */
+/* Remove frames of an earlier run in the same folder: a shorter new series would not overwrite
+ * them, and the .pvd does not list them. */
 static mps_status remove_old(const mps_frames *f)
 {
     const struct dirent *entry;
@@ -158,9 +161,9 @@ static mps_status remove_old(const mps_frames *f)
     return status;
 }
 
-/* ---- going on with a series -------------------------------------------------------------------------------------- */
+/* ---- continuing a series ---- */
 
-/* Rounding of a time, as at the end of mps_run(). */
+/* Rounding error of a time, as at the end of mps_run(). */
 static double time_slack(const mps_frames *f)
 {
     return 1e-12 * fmax(1.0, fabs(f->world->state.t));
@@ -173,7 +176,7 @@ static bool read_text(FILE *file, const char *wanted)
     return true;
 }
 
-/* Whether the line is the one that is written for frame k; its time, number and kind. */
+/* Whether the line is the line of frame k; reads its time, number and kind. */
 static bool read_line(const mps_frames *f, int64_t k, const char *line, stamp *frame)
 {
     char wanted[LINE_SIZE];
@@ -185,7 +188,7 @@ static bool read_line(const mps_frames *f, int64_t k, const char *line, stamp *f
     return strcmp(line, wanted) == 0;
 }
 
-/* A frame that was removed after the checkpoint has no file. */
+/* Whether the frame has a file: it may have been removed after the checkpoint. */
 static bool has_file(const mps_frames *f, const stamp *frame)
 {
     struct stat there;
@@ -194,7 +197,7 @@ static bool has_file(const mps_frames *f, const stamp *frame)
     return stat(f->temporary, &there) == 0;
 }
 
-/* Frames up to the present one. */
+/* Read the frames up to the present time. */
 static mps_status read_times(mps_frames *f, FILE *file, bool *good)
 {
     char head[LINE_SIZE], line[LINE_SIZE] = "";
@@ -219,7 +222,7 @@ static mps_status read_times(mps_frames *f, FILE *file, bool *good)
     return MPS_OK;
 }
 
-/* The series that is there; none is an empty one. */
+/* Read the existing series; no file is an empty series. */
 static mps_status read_series(mps_frames *f)
 {
     bool good = false;
@@ -238,9 +241,9 @@ static mps_status read_series(mps_frames *f)
     return status;
 }
 
-/* ---- opening ----------------------------------------------------------------------------------------------------- */
+/* ---- opening ---- */
 
-/* Names go into paths and XML as they are. */
+/* Names are used in paths and XML without escapes. */
 static bool good_name(const char *name)
 {
     size_t length = name ? strnlen(name, NAME_SIZE) : 0;
@@ -300,14 +303,16 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
     return status;
 }
 
-/* A run that goes on where another was interrupted may write its state again: the frame with the same time is written anew. */
+/* A run that continues an interrupted run may write its state again: replace the frame of the same
+ * time. */
 static bool repeats_last(const mps_frames *f)
 {
     return f->continues && f->count > 0 &&
            fabs(f->world->state.t - f->frame[f->count - 1].t) <= time_slack(f);
 }
 
-/* A frame of pieces cannot be replaced as a whole, nor by one: it leaves the series, with its files, before it is written anew. */
+/* A frame of pieces cannot be replaced atomically, nor can one replace another frame: remove it
+ * from the series and delete its files before it is written again. */
 static mps_status drop_repeated(mps_frames *f)
 {
     if (!repeats_last(f) || !(f->pieces || f->frame[f->count - 1].pieces)) return MPS_OK;
@@ -317,7 +322,7 @@ static mps_status drop_repeated(mps_frames *f)
     return status < 0 ? status : remove_old(f);
 }
 
-/* The place of the frame, and room for it in the series. */
+/* Choose the index of the frame, and allocate its entry in the series. */
 static mps_status choose_place(mps_frames *f)
 {
     MPS__TRY(drop_repeated(f));
@@ -327,7 +332,7 @@ static mps_status choose_place(mps_frames *f)
                      sizeof *f->frame);
 }
 
-/* Rank 0 chooses it. */
+/* Rank 0 chooses and broadcasts the index. */
 static mps_status choose_together(mps_frames *f)
 {
     mps__ranks *r = &f->world->ranks;
@@ -338,7 +343,7 @@ static mps_status choose_together(mps_frames *f)
     return mps__ranks_status(r);
 }
 
-/* A file of the frame; `suffix` comes behind its number. */
+/* Write a file of the frame; `suffix` follows its number. */
 static mps_status write_part(const mps_frames *f, const char *suffix,
                              void (*write)(const mps_frames *f, FILE *file))
 {
@@ -347,7 +352,7 @@ static mps_status write_part(const mps_frames *f, const char *suffix,
     return write_file(f, write);
 }
 
-/* The series with the frame that was written. */
+/* Write the series with the new frame. */
 static mps_status add_frame(mps_frames *f)
 {
     const stamp frame = {f->world->state.t, f->number, f->pieces};

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Snapshots: the state of a simulation in memory, and back. Where the store has still the particles and the order that it had, which is so
- * until the next search, arrays are copied over those that are there, and the lists of neighbours stay. Otherwise the store is filled anew, and
- * the next step searches at the places of the search that the snapshot knew, as after a checkpoint. */
+/* Snapshots: save and restore the state of a simulation in memory. If the store still has the same
+ * particles in the same order, which holds until the next search, the existing arrays are
+ * overwritten and the neighbour lists stay. Otherwise the store is refilled, and the next step
+ * searches at the positions of the saved search, as after a checkpoint. */
 #include "snapshot.h"
 #include "plates.h"
 #include "world_ranks.h"
@@ -9,7 +10,7 @@
 
 static const char listed_field[] = "listed_at";
 
-/* The number of fields of the particles; without the last one if it only waits for the next search. */
+/* Number of fields of the particles, without a last one that only waits for the next search. */
 static int32_t fields_of(const mps__particles *s)
 {
     return s->fields - (strcmp(s->field[s->fields - 1].name, listed_field) == 0);
@@ -20,7 +21,7 @@ static size_t bytes_of(const mps__field *f)
     return (size_t)f->components * f->size;
 }
 
-/* Places of the last search, if its candidates still hold; NULL: they do not. */
+/* Positions of the last search if its candidates are valid, else NULL. */
 static const double *searched_at(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -31,11 +32,11 @@ static const double *searched_at(mps__world *w)
     return w->lists.neighbours.valid ? w->lists.neighbours.searched : NULL;
 }
 
-/* ---- out ---- */
+/* ---- save ---- */
 
 static mps_status reserve_field(mps__context *c, mps__copy *to, const mps__field *from, int64_t n)
 {
-    if (to->bytes != bytes_of(from)) { /* other models brought the fields */
+    if (to->bytes != bytes_of(from)) { /* other models added the fields */
         mps__free(c, to->data);
         to->data = NULL;
         to->capacity = 0;
@@ -44,7 +45,7 @@ static mps_status reserve_field(mps__context *c, mps__copy *to, const mps__field
     return mps__grow(c, (void **)&to->data, &to->capacity, 0, n, to->bytes);
 }
 
-/* Room for all. What the snapshot held is lost where this fails. */
+/* Allocate all arrays. On failure the snapshot loses its contents. */
 static mps_status reserve(mps_snapshot *k)
 {
     mps__world *w = &k->sim->world;
@@ -133,7 +134,7 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
     return MPS_OK;
 }
 
-/* ---- in ---- */
+/* ---- restore ---- */
 
 static mps_status changed(mps_snapshot *k, const char *what)
 {
@@ -143,7 +144,7 @@ static mps_status changed(mps_snapshot *k, const char *what)
                      what);
 }
 
-/* What the arrays of a snapshot mean must be the same. Settings, motions and probes are free. */
+/* The layout of the snapshot must match the simulation. Settings, motions and probes may differ. */
 static mps_status check_setup(mps_snapshot *k)
 {
     const mps__world *w = &k->sim->world;
@@ -160,14 +161,15 @@ static mps_status check_setup(mps_snapshot *k)
     return same ? MPS_OK : changed(k, "fields of the particles");
 }
 
-/* A snapshot on its way in: memory that waits to take its place. */
+/* Temporary state of a restore: memory allocated in advance. */
 typedef struct arrival {
-    bool same, lists;  /* the store is the same, its lists of neighbours too */
-    double *listed_at; /* places of the search to be done again, or NULL */
-    bool field;        /* on many ranks: the field that carries these places was added */
+    bool same, lists;  /* the store is unchanged; its neighbour lists too */
+    double *listed_at; /* positions for repeating the search, or NULL */
+    bool field;        /* on many ranks: the field that carries these positions was added */
 } arrival;
 
-/* What there still is of the snapshot, on all ranks. Candidates are those of a search at the same places. */
+/* What is unchanged since the snapshot, on all ranks. Candidates are valid for a search at the same
+ * positions. */
 static arrival compare(const mps_snapshot *k)
 {
     mps__world *w = &k->sim->world;
@@ -190,7 +192,7 @@ static mps_status reserve_places(mps_snapshot *k, arrival *a)
     mps__particles *s = &w->particles;
     if (!k->listed || a->lists) return MPS_OK;
     if (mps__ranks_many(&w->ranks)) {
-        if (fields_of(s) != s->fields) return MPS_OK; /* there is one */
+        if (fields_of(s) != s->fields) return MPS_OK; /* it exists already */
         MPS__TRY(mps__particles_field_add(s, listed_field, s->dim, sizeof(double), false, NULL));
         s->field[s->fields - 1].trails = true;
         a->field = true;
@@ -200,7 +202,7 @@ static mps_status reserve_places(mps_snapshot *k, arrival *a)
     return a->listed_at ? MPS_OK : MPS_E_NOMEM;
 }
 
-/* All that may fail. The simulation has the same values afterwards. */
+/* Everything that may fail. The values of the simulation do not change. */
 static mps_status prepare(mps_snapshot *k, arrival *a)
 {
     mps__world *w = &k->sim->world;
@@ -214,7 +216,7 @@ static mps_status prepare(mps_snapshot *k, arrival *a)
     return mps__ghosts_reset_reserve(&w->ghosts, k->n);
 }
 
-/* With the places of the search, if they travel with the particles. */
+/* Copy the fields, including the positions of the search if they move with the particles. */
 static void copy_fields(const mps_snapshot *k)
 {
     mps__world *w = &k->sim->world;
@@ -231,7 +233,8 @@ static bool is_own(const mps_snapshot *k, int64_t i)
     return i >= k->known || mps__owns(k->ghost, i);
 }
 
-/* Other particles: the own ones of the snapshot, in their order. Ghosts come with the next search. There is room. */
+/* Refill the store with the owned particles of the snapshot, in their order. The next search adds
+ * ghosts. The capacity is sufficient. */
 static void fill_store(mps_snapshot *k)
 {
     mps__world *w = &k->sim->world;
@@ -250,7 +253,7 @@ static void fill_store(mps_snapshot *k)
         mps__particles_permute(s, own, order);
         mps__ghosts_reset(&w->ghosts, known);
     }
-    w->lists.orders++; /* places that others remember hold no more */
+    w->lists.orders++; /* invalidates stored indices */
     mps__plates_set_active(w);
 }
 
@@ -281,7 +284,7 @@ mps_status mps_snapshot_restore(mps_snapshot *snapshot)
     if (!snapshot) return MPS_E_ARG;
     mps_snapshot *k = snapshot;
     mps_sim *sim = k->sim;
-    MPS__STEPS(sim); /* all fields are replaced, also those that a device has alone */
+    MPS__STEPS(sim); /* all fields are replaced, also those valid only on a device */
     mps__world *w = &sim->world;
     if (!k->taken) return not_taken(k, __func__);
     const int32_t open = mps__particles_leases(&w->particles);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A copy of the state in memory. Arrays that did not change since the last copy are not copied again. */
+/* A copy of the state in memory. Arrays that did not change since the last copy are not copied
+ * again. */
 #ifndef MPS_CORE_SNAPSHOT_H
 #define MPS_CORE_SNAPSHOT_H
 
@@ -9,20 +10,20 @@
 /* An array of all particles. */
 typedef struct mps__copy {
     char name[MPS__NAME_SIZE];
-    size_t bytes; /* of a particle */
+    size_t bytes; /* per particle */
     char *data;
     int64_t capacity; /* particles */
 } mps__copy;
 
-/* What a probe had. */
+/* Saved state of a probe. */
 typedef struct mps__kept_series {
-    mps__series own; /* in memory of the snapshot */
-    int64_t same;    /* the first so many samples of the probe are those here, */
-    int64_t cuts;    /* as long as this is that of the probe's series */
+    mps__series own; /* owned by the snapshot */
+    int64_t same;    /* number of leading samples that equal those of the probe */
+    int64_t cuts;    /* `same` is valid while this equals the value of the probe's series */
 } mps__kept_series;
 
 struct mps_snapshot {
-    mps_sim *sim; /* borrowed */
+    mps_sim *sim; /* not owned */
     bool taken;
     mps__state state;
     mps__pose now;
@@ -40,7 +41,7 @@ struct mps_snapshot {
     mps__copy field[MPS__FIELDS_MAX];
     uint8_t *ghost; /* [known] */
     int64_t ghost_capacity;
-    double *searched; /* [n*dim], where `listed` */
+    double *searched; /* [n*dim], valid if `listed` */
     int64_t searched_capacity;
     int32_t models;
     const mps_model_ops *model[MPS__MODELS_ACTIVE];
@@ -51,10 +52,10 @@ struct mps_snapshot {
 
 /* ---- snapshot_kept.c: samples of probes and numbers of models ---- */
 
-/* Room for what the simulation has now. On failure nothing changed. */
+/* Allocate for the present size of the simulation. On failure nothing changes. */
 mps_status mps__kept_reserve(mps_snapshot *k);
 void mps__kept_take(mps_snapshot *k);
-/* Room in the simulation for what the snapshot has. */
+/* Allocate in the simulation for the contents of the snapshot. */
 mps_status mps__kept_return_reserve(mps_snapshot *k);
 void mps__kept_return(mps_snapshot *k);
 void mps__kept_free(mps_snapshot *k);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a snapshot keeps beside the particles: samples of probes, which only grow between two cuts, and numbers of models. */
+/* Snapshot data besides the particles: samples of probes, which only grow between two cuts, and
+ * numbers of models. */
 #include "snapshot.h"
 #include <string.h>
 
@@ -10,14 +11,14 @@ static int64_t width_of(const mps__series *s)
     return 1 + s->size;
 }
 
-/* The first so many samples of a probe that a snapshot has already. */
+/* Number of leading samples of a probe that the snapshot already has. */
 static int64_t same_samples(const mps__kept_series *k, const mps__series *s)
 {
     if (k->cuts != s->cuts || k->own.size != s->size) return 0;
     return k->same < s->count ? k->same : s->count;
 }
 
-/* Room for the rows in use and the samples of another series. Of the samples `used` are kept. */
+/* Allocate the rows in use and the samples of another series. The first `used` samples are kept. */
 static mps_status reserve_series(mps__context *c, mps__series *to, const mps__series *from,
                                  int64_t used)
 {
@@ -29,7 +30,7 @@ static mps_status reserve_series(mps__context *c, mps__series *to, const mps__se
                      from->count * from->size, sizeof *to->value);
 }
 
-/* All of it; of the samples those from `same` on. There is room. */
+/* Copy a series; of its samples only those from `same` on. The capacity is sufficient. */
 static void copy_series(mps__series *to, const mps__series *from, int64_t same)
 {
     const size_t rows = (size_t)((from->rows - from->first) * width_of(from));
@@ -50,7 +51,7 @@ static void copy_series(mps__series *to, const mps__series *from, int64_t same)
     to->count = from->count;
 }
 
-/* A probe that the snapshot does not know begins anew. */
+/* A probe unknown to the snapshot starts again. */
 static void restart(mps__series *s)
 {
     s->first = s->rows = s->count = 0;
@@ -59,7 +60,7 @@ static void restart(mps__series *s)
     s->cuts++;
 }
 
-/* ---- out ---- */
+/* ---- save ---- */
 
 static mps_status reserve_numbers(mps__context *c, mps__numbers *to, const mps__numbers *from)
 {
@@ -105,9 +106,9 @@ void mps__kept_take(mps_snapshot *k)
     }
 }
 
-/* ---- in ---- */
+/* ---- restore ---- */
 
-/* Whether the probe is one that the snapshot has. */
+/* Whether the snapshot has this probe. */
 static bool has_probe(const mps_snapshot *k, int64_t i)
 {
     return i < k->probes && k->series[i].own.size == k->sim->probes.list[i].series.size;
@@ -139,7 +140,7 @@ void mps__kept_return(mps_snapshot *k)
             continue;
         }
         copy_series(s, &k->series[i].own, same_samples(&k->series[i], s));
-        /* other snapshots have to copy again what comes now */
+        /* other snapshots must copy the next samples again */
         s->cuts++;
         k->series[i].same = s->count;
         k->series[i].cuts = s->cuts;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Energies, mass, volume and momentum of the fluid, and the budgets of energy and momentum. */
+/* Energies, mass, volume and momentum of the fluid, and budgets of energy and momentum. */
 #include "budget.h"
 #include "probes.h"
 #include "world_ranks.h"
@@ -13,7 +13,7 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
     const mps__particles *s = &w->particles;
     const double volume = w->setup.dim == 2 ? w->setup.dp * w->setup.dp
                                             : w->setup.dp * w->setup.dp * w->setup.dp;
-    mps_exact sums[4] = {{{0}, 0, 0}}; /* of the mass, and of the mass times the place */
+    mps_exact sums[4] = {{{0}, 0, 0}}; /* mass, and mass times position */
     mps__terms t;
     int64_t count = 0;
     mps__terms_begin(&t, sums, 1 + w->setup.dim);
@@ -34,8 +34,9 @@ static void bulk_sums(const mps__world *w, mps_energy *e)
         if (e->mass > 0) e->centre[d] /= e->mass;
 }
 
-/* Fluid before a wall: within 0.75 dp of the wall's normal, 2 dp deep. The row of walls above the surface has the uppermost fluid
- * 1 dp beside its normal, and is dry; in moving liquid a place of the lattice has fluid within 0.71 dp. */
+/* Whether there is fluid in front of a wall: within 0.75 dp of the wall's normal, 2 dp deep. The
+ * layer of walls above the surface has the uppermost fluid 1 dp beside its normal, and is dry; in
+ * moving liquid a lattice point has fluid within 0.71 dp. */
 static bool is_wet(const mps__world *w, const mps_neighbours *l, int64_t i)
 {
     const mps__particles *s = &w->particles;
@@ -57,8 +58,8 @@ static bool is_wet(const mps__world *w, const mps_neighbours *l, int64_t i)
     return false;
 }
 
-/* Volume of the half cells that wetted walls stand for, less that of the half cells above the free surface. Areas of a closed surface
- * have the sum zero, so what the wetted walls leave open is the surface's. */
+/* Volume of the half cells of wetted walls, minus that of the half cells above the free surface.
+ * The areas of a closed surface sum to zero, so the free surface has the remaining area. */
 static double half_cells(const mps__world *w, const mps_neighbours *l)
 {
     const mps__particles *s = &w->particles;
@@ -80,7 +81,8 @@ static double half_cells(const mps__world *w, const mps_neighbours *l)
     return 0.5 * w->setup.dp * (mps_exact_value(&sums[0]) - sqrt(mps__dot(open, open, dim)));
 }
 
-/* By the lists of the last step, or where there are none: after a checkpoint was read, particles added or removed. */
+/* Uses the lists of the last step, or new ones if they are invalid: after a checkpoint was read, or
+ * particles were added or removed. */
 static mps_status add_half_cells(const mps__world *w, double *volume)
 {
     const mps__particles *s = &w->particles;
@@ -105,7 +107,7 @@ mps_status mps__energy_measure(mps__world *w, mps_energy *e)
     MPS__TRY(mps__world_adopt(w));
     bool any = w->particles.n > 0;
     mps__world_any(w, 1, &any);
-    /* in the order of a step, so that measuring first changes no byte of what comes */
+    /* in the order of a step, so that an earlier measurement changes no later byte */
     if (w->state.step == 0 && any)
         MPS__TRY(mps__particles_leases(&w->particles) ? mps__world_neighbours_kept(w)
                                                       : mps__world_neighbours(w));

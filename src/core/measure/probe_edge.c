@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A wall particle on an edge where a face turns away from the liquid stands for the ends of two faces and has one pressure. In a stream that leaves
- * the wall there, one face is pressed and the other is not, and linear interpolation would carry the pressure of the first half a spacing or more
- * onto the second. So a sensor takes as the pressure of its face at the edge
+/* A wall particle on an edge where a face turns away from the liquid represents the ends of two
+ * faces with one pressure. If the flow separates there, one face is loaded and the other is not,
+ * and linear interpolation would extend the pressure of the first by half a spacing or more onto
+ * the second. So a sensor uses as the pressure of its face at the edge
  *
  *   median(p_e, mean, line)
  *
- * with p_e the pressure of the particle on the edge, `mean` that of the particles of the face alone beside it, and `line` their linear pressure,
- * by least squares, extrapolated to the edge. Where pressures are linear round the edge, as in liquid at rest, that is p_e. It never leaves the
- * range between p_e and the mean, so that no pressure or suction is made up. A face too narrow for a line keeps p_e. */
+ * with p_e the pressure of the edge particle, `mean` that of the neighbouring particles of the face
+ * alone, and `line` their linear least-squares fit extrapolated to the edge. Where the pressure is
+ * linear around the edge, as in liquid at rest, that is p_e. It stays between p_e and the mean, so
+ * that no pressure or suction is invented. A face too narrow for a line keeps p_e. */
 #include "probe_edge.h"
 #include <math.h>
 
-/* In spacings: particles that the line counts, and those of the mean. */
+/* In spacings: reach of the particles of the line, and of the mean. */
 static const double far = 3, near = 1.6;
 
 static double weight_at(double square, double reach)
@@ -19,7 +21,8 @@ static double weight_at(double square, double reach)
     return fmax(0, 1 - square / (reach * reach));
 }
 
-/* First column of the inverse of a symmetric matrix {00, 01, 02, 11, 12, 22}, of its upper left part for one side. False if it has none. */
+/* First column of the inverse of a symmetric matrix {00, 01, 02, 11, 12, 22}, for one side of its
+ * upper left block. False if it is singular. */
 static bool first_of_inverse(const double *m, int32_t sides, double *column)
 {
     const double minor[3] = {m[3] * m[5] - m[4] * m[4], m[2] * m[4] - m[1] * m[5],
@@ -36,7 +39,8 @@ static bool first_of_inverse(const double *m, int32_t sides, double *column)
     return true;
 }
 
-/* Place of a particle of the face from the edge particle, in spacings; its square. */
+/* Position of a face particle relative to the edge particle, in spacings, and its squared
+ * length. */
 static double from_edge(const mps__face *f, const mps__face_point *u, const mps__face_point *edge,
                         double q[2])
 {
@@ -57,7 +61,7 @@ static mps_status add_share(mps__edges *e, mps__context *c, mps__edge_share shar
     return MPS_OK;
 }
 
-/* Shares of the particles about an edge; none if they do not tell a line. */
+/* Weights of the particles around an edge; none if they do not define a line. */
 static mps_status find_shares(mps__edges *e, mps__context *c, const mps__face *f, int64_t of)
 {
     double m[6] = {0}, column[3], q[2], sum = 0;

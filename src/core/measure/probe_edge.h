@@ -1,19 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure of one face on an edge that it shares with another. */
+/* Pressure of one face on an edge that it shares with another face. */
 #ifndef MPS_CORE_PROBE_EDGE_H
 #define MPS_CORE_PROBE_EDGE_H
 
 #include "probe_face.h"
 
-/* A particle of the face alone, and its parts in the mean beside the edge and in the line that is extrapolated to it. */
+/* A particle that belongs to the face alone, and its weights in the mean beside the edge and in the
+ * line extrapolated to the edge. */
 typedef struct mps__edge_share {
-    int64_t of; /* number in the list of the face, later in that of the sensor */
+    int64_t of; /* index in the list of the face, later in that of the sensor */
     double mean, line;
 } mps__edge_share;
 
 /* A particle on the edge. */
 typedef struct mps__edge {
-    int64_t of, first, count; /* its number in the same list; its shares */
+    /* index of the edge particle in the same list; range of its weights */
+    int64_t of, first, count;
 } mps__edge;
 
 typedef struct mps__edges {
@@ -22,10 +24,10 @@ typedef struct mps__edges {
     mps__edge_share *share;
 } mps__edges;
 
-/* Find the shares of all particles on edges that have a weight. */
+/* Find the weights for all edge particles that have a sensor weight. */
 mps_status mps__edges_find(mps__edges *e, mps__context *c, const mps__face *f);
 void mps__edges_free(mps__edges *e, mps__context *c);
-/* The pressures p of a list: those on edges become those of the face alone. */
+/* Replace the pressures p of edge particles in a list by those of the face alone. */
 void mps__edges_apply(const mps__edges *e, double *p);
 
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which face of a wall a sensor lies on: the one whose plane is nearest, of tanks, baffles, plates and solids with packed particles. It goes on to
- * the wall it stands on; walls that a solid covers or a plate hides do not belong to it. */
+/* Find the wall face that contains a sensor: the face with the nearest plane, of tanks, baffles,
+ * plates and packed solids. It extends to the wall on which it is mounted, without walls that a
+ * solid covers or a plate hides. */
 #include "probe_face.h"
 #include "angles.h"
 #include "plates.h"
@@ -9,16 +10,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* In spacings: walls within `flat` of the plane of a face belong to it, neighbours within `beside` tell a face from an edge; a particle stands for
- * its face as far as `cover`; gap to the wall on which a face stands; normals are averaged as far as `around`; faces as near as that within `as_near`
- * are told; a face that was asked for is so `near`; particles of a face are looked for as far `aside` of the sensor. */
+/* In spacings. flat: distance of walls from the plane of their face; beside: neighbours that
+ * distinguish a face from an edge; cover: reach of a particle for its face; foot_gap: gap to the
+ * wall on which a face is mounted; around: averaging radius of normals; as_near: difference of
+ * distances up to which a second face is reported; near: distance of a requested face; aside:
+ * search distance beside the sensor. */
 static const double flat = 0.25, beside = 1.6, cover = 1.2, foot_gap = 1.3, around = 1.9,
                     as_near = 0.5, near = 2, aside = 3.5;
 
-/* Cosines: of the largest angle between a normal and the one that was asked for, and of the least between two faces. */
+/* Cosines: of the largest angle between a normal and the requested one, and of the smallest angle
+ * between two faces. */
 static const double looks_there = 0.8660254037844386, looks_elsewhere = 0.9;
 
-/* Of the least turn of a face on an edge: 39 degrees. A curved face of radius 5 dp turns by less within the reach of a sensor. */
+/* Cosine of the smallest angle between faces at an edge, 39 degrees. A curved face of radius 5 dp
+ * turns by less within the reach of a sensor. */
 static const double turned = 0.78;
 
 typedef mps__face_solid solid;
@@ -45,7 +50,7 @@ static int compare_solid(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Solids around the sensor, by id, so that nothing depends on how the particles are sorted. */
+/* Solids around the sensor, by id, so that nothing depends on the particle order. */
 static mps_status collect_solids(mps__face *f, mps__world *w, const double *at)
 {
     const mps__particles *s = &w->particles;
@@ -74,7 +79,8 @@ static bool has_normal(const solid *e)
     return mps__dot(e->n, e->n, 3) > 0;
 }
 
-/* On an edge no neighbours lie in the plane that is across the particle's area, in 3-D only those along the edge. */
+/* On an edge the particle has no neighbours in the plane normal to its area, in 3-D only those
+ * along the edge. */
 static bool on_face(const mps__face *f, const solid *e)
 {
     double moment[3] = {0, 0, 0}, tangent[2][3] = {{0}};
@@ -98,7 +104,8 @@ static bool on_face(const mps__face *f, const solid *e)
     return mean - root > 0.3;
 }
 
-/* How far the sensor is from what a wall particle stands for, squared: from its plane, and along it beyond its cell. */
+/* Squared distance of the sensor from the cell of a wall particle: normal to its plane, and along
+ * it beyond the cell. */
 static double remoteness(const mps__face *f, const solid *e)
 {
     const double off = mps__dot(e->r, e->n, 3), square = mps__dot(e->r, e->r, 3),
@@ -108,7 +115,7 @@ static double remoteness(const mps__face *f, const solid *e)
     return off * off + beyond * beyond + 1e-4 * along * along;
 }
 
-/* Whether a wall particle looks where the sensor's normal does, near enough to be meant. */
+/* Whether a wall particle has the requested normal and is close enough. */
 static bool is_wanted(const mps__face *f, const solid *e)
 {
     const double most = (near + 1e-6) * f->dp;
@@ -116,7 +123,8 @@ static bool is_wanted(const mps__face *f, const solid *e)
            (mps__dot(e->n, f->wanted, 3) >= looks_there && remoteness(f, e) <= most * most);
 }
 
-/* The least remote wall particle of a face. Of two as remote the one that looks at the sensor, then the older. NULL: none. */
+/* Closest wall particle of a face. At equal distance the one facing the sensor, then the lower id.
+ * NULL: none. */
 static solid *least_remote(const mps__face *f, bool (*may_be)(const mps__face *f, const solid *e))
 {
     const double margin = 1e-10 * f->dp * f->dp;
@@ -148,7 +156,8 @@ static bool any_wall(const mps__face *f, const solid *e)
     return e->wall;
 }
 
-/* Of a wall without areas, as a plate one particle thick: the axis along which the part reaches least around `base`. */
+/* Normal of a wall without areas, e.g. a plate one particle thick: the axis of least extent of the
+ * part around `base`. */
 static void flat_axis(const mps__world *w, int64_t base, double normal[3])
 {
     const mps__particles *s = &w->particles;
@@ -166,7 +175,8 @@ static void flat_axis(const mps__world *w, int64_t base, double normal[3])
     normal[least] = 1;
 }
 
-/* Mean normal of the face around the sensor: particles beside an edge have a part of the other face, those of a curved face turn. */
+/* Mean normal of the face around the sensor: normals of particles near an edge include the other
+ * face, those of a curved face vary. */
 static void face_normal(mps__face *f, const mps__world *w)
 {
     const solid *base = f->base;
@@ -192,7 +202,7 @@ static void face_normal(mps__face *f, const mps__world *w)
     for (int d = 0; d < 3; d++) f->normal[d] = sum[d] / size;
 }
 
-/* There is no wall, or none that looks where it should. */
+/* Error: there is no wall, or none with the requested normal. */
 static mps_status no_base(const mps__face *f, const mps__world *w)
 {
     if (!f->wanted)
@@ -220,7 +230,7 @@ static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
     return MPS_OK;
 }
 
-/* On a face that looks elsewhere than the sensor's. */
+/* Whether the particle belongs to a face with another normal. */
 static bool on_other_face(const mps__face *f, const solid *e)
 {
     return mps__dot(e->n, f->normal, 3) < looks_elsewhere && on_face(f, e);
@@ -245,7 +255,7 @@ static double height(const mps__face *f, const solid *e)
     return mps__dot(e->r, f->normal, 3) + f->off;
 }
 
-/* Whether a solid stands on a wall particle, so that it is not wetted. */
+/* Whether a solid is in contact with the wall particle, so that it is not wetted. */
 static bool is_covered(const mps__face *f, const solid *e)
 {
     for (int64_t k = 0; k < f->solids; k++) {
@@ -259,7 +269,8 @@ static bool is_covered(const mps__face *f, const solid *e)
     return false;
 }
 
-/* Whether the liquid before the face reaches a wall particle: no plate hides it, no solid covers it. */
+/* Whether the liquid in front of the face reaches a wall particle: neither hidden by a plate nor
+ * covered by a solid. */
 static bool is_open(const mps__face *f, const mps__world *w, const double *at, const solid *e)
 {
     const solid *b = f->base;
@@ -284,7 +295,8 @@ static mps_status add_member(mps__face *f, mps__context *c, solid *e)
     return MPS_OK;
 }
 
-/* True if a wall particle lies in the face's plane, looks to the same side and carries pressure to the sensor. */
+/* Whether a wall particle is in the face's plane, faces the same side and contributes pressure to
+ * the sensor. */
 static bool face_has(const mps__face *f, const mps__particles *s, const solid *e)
 {
     if (!e->wall || fabs(height(f, e)) > flat * f->dp) return false;
@@ -294,7 +306,8 @@ static bool face_has(const mps__face *f, const mps__particles *s, const solid *e
                          : s->part[e->place] == s->part[f->base->place];
 }
 
-/* Where the plane of another wall meets that of the face, along the tangents; false if it does so nowhere near. */
+/* Intersection of another wall's plane with the face, along the tangents; false if it is far
+ * away. */
 static bool meets_face(const mps__face *f, const solid *e, double at[2])
 {
     double across = 0, t[2] = {0, 0};
@@ -310,7 +323,7 @@ static bool meets_face(const mps__face *f, const solid *e, double at[2])
     return across > 0.1;
 }
 
-/* A face goes on to the wall it stands on, as far as that is next to its last particles. */
+/* Extend the face to the wall on which it is mounted, if that is next to its last particles. */
 static mps_status reach_foot(mps__face *f, mps__world *w, const double *at)
 {
     const int64_t members = f->count;
@@ -331,7 +344,7 @@ static mps_status reach_foot(mps__face *f, mps__world *w, const double *at)
     return MPS_OK;
 }
 
-/* Height of a over the plane of particle o. */
+/* Height of a above the plane of particle o. */
 static double from_plane(const solid *a, const solid *o)
 {
     const double r[3] = {a->r[0] - o->r[0], a->r[1] - o->r[1], a->r[2] - o->r[2]};
@@ -343,8 +356,8 @@ static bool beside_each_other(const mps__face *f, const solid *a, const solid *b
     return a != b && distance2(a->r, b->r, 3) <= beside * beside * f->dp * f->dp;
 }
 
-/* Whether wall particle e of the face is on an edge at which the face turns away from the liquid: beside it another face goes on behind this one, e
- * is in the plane of both, and this face goes on behind the other. */
+/* Whether wall particle e is on an edge where the face turns away from the liquid: a neighbouring
+ * face extends behind this face, e is in both planes, and this face extends behind the other. */
 static bool on_edge(const mps__face *f, const solid *e)
 {
     for (int64_t k = 0; k < f->solids; k++) {
@@ -363,7 +376,7 @@ static bool on_edge(const mps__face *f, const solid *e)
     return false;
 }
 
-/* Which members are of this face alone, and which on an edge that it shares. */
+/* Mark the members of this face alone, and those on an edge that it shares. */
 static void mark_edges(mps__face *f)
 {
     for (int64_t k = 0; k < f->solids; k++) {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure at a place in the fluid: kernel-weighted, exact where it is linear. */
+/* Pressure at a point in the fluid: kernel-weighted, exact for linear fields. */
 #include "probe_fluid.h"
 #include "plates.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Moments of the kernel-weighted pressures around a place. */
+/* Moments of the kernel-weighted pressures around a point. */
 typedef struct moments {
     double weight, p, x[3], px[3], xx[9];
     double low, high, nearest2;
@@ -24,7 +24,8 @@ static void add_moment(moments *m, const double *r, double weight, double p)
     m->high = fmax(m->high, p);
 }
 
-/* Solve the dim x dim system in place, symmetric positive definite; false if it is close to singular. */
+/* Solve the dim x dim system in place, symmetric positive definite; false if it is nearly
+ * singular. */
 static bool solve_small(int32_t dim, double a[9], double b[3], double scale)
 {
     for (int32_t k = 0; k < dim; k++) {
@@ -42,7 +43,8 @@ static bool solve_small(int32_t dim, double a[9], double b[3], double scale)
     return true;
 }
 
-/* Weighted mean, moved from the particles' centroid to the place by the weighted least-squares gradient. */
+/* Weighted mean, extrapolated from the particles' centroid to the point with the weighted
+ * least-squares gradient. */
 static double moments_value(const mps__world *w, moments *m)
 {
     double mean = m->p / m->weight, a[9], g[3], value = mean;
@@ -57,7 +59,7 @@ static double moments_value(const mps__world *w, moments *m)
     return fmin(fmax(value, m->low), m->high);
 }
 
-/* A particle about a place. */
+/* A particle near a point. */
 typedef struct about {
     int64_t id;
     double r[3], d2, p;
@@ -69,7 +71,7 @@ static int compare_id(const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Fluid particles and the walls they wet about a place; a dry wall has p = 0 exactly. */
+/* Fluid particles and the walls they wet near a point; a dry wall has p = 0 exactly. */
 static mps_status find_about(const mps__world *w, const mps_probe *c, about **list, int64_t *count)
 {
     const mps__particles *s = &w->particles;

@@ -6,7 +6,7 @@
 #include "world.h"
 #include <mps/probe.h>
 
-/* Pressure at config->at (tank's frame); 0 outside the fluid. */
+/* Pressure at config->at (tank frame); 0 outside the fluid. */
 mps_status mps__fluid_measure(const mps__world *w, const mps_probe *config, double *value);
 
 #endif

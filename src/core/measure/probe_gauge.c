@@ -1,46 +1,49 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The free-surface gauge: where a smoothed fluid fraction along a line falls below one half.
+/* The free-surface gauge: the point on a line where a smoothed fluid fraction falls below one half.
  *
- * Particles are spread with cubic B-splines, dp wide along the line and diameter/2 across it: on a lattice the sum is a
- * smooth step that passes 1/2 exactly half a spacing above the centres of the top layer, and it moves with the
- * particles without a staircase. Drops and films fill less than half of the band and stay unseen. Rows of a stretched lattice
- * (1.3 : 1 in a crest) are further apart: how far the centres are below is taken from the surface particles themselves.
+ * Particles are smoothed with cubic B-splines, dp wide along the line and diameter/2 across it: on
+ * a lattice the sum is a smooth step that passes 1/2 exactly half a spacing above the centres of
+ * the top layer, and it moves with the particles without staircase error. Droplets and films fill
+ * less than half of the band and are not detected. Layers of a stretched lattice (1.3 : 1 in a
+ * crest) are further apart: the depth of the centres below the surface is measured from the surface
+ * particles.
  *
- * Below another phase the same step lies halfway between the rows of both, where the interface is, however far the rows are apart: half a
- * spacing less is the reading, so that still water reads the same with air above it and without. */
+ * Below another phase the same step is halfway between the layers of both phases, at the interface,
+ * for any layer distance: the reading is half a spacing lower, so that still water has the same
+ * reading with and without air above it. */
 #include "probe_gauge.h"
 #include "plates.h"
 #include "world_ranks.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Above this fraction of solids a sample says nothing about the fluid. */
+/* Above this solid fraction a sample gives no information about the fluid. */
 static const double solid_limit = 0.9;
 
-/* A particle beside the line, in the line's own coordinates. */
+/* A particle near the line, in coordinates of the line. */
 typedef struct beside {
     double s, across[2];
     int64_t id;
     double facing[2]; /* of walls: direction cosines of the wetted side across the line */
-    double share;     /* of a particle's size: one half for each face of a thin plate */
+    double share;     /* fraction of a particle's size: one half for each face of a thin plate */
     bool solid, top;  /* top: on the free surface */
 } beside;
 
 typedef struct line {
     int32_t sides; /* directions across the line: 1 or 2 */
     double dp, width, length;
-    double foot[3], along[3], across[2][3]; /* in the lab */
+    double foot[3], along[3], across[2][3]; /* in the lab frame */
     double tank_across[2][3];
     int64_t count;
-    beside *list;    /* by ascending s, of equal ones by id */
-    bool faces;      /* some of them are of a wall along the line */
-    double extra[2]; /* added to the shift of the band */
+    beside *list;    /* sorted by s, then by id */
+    bool faces;      /* some particles belong to a wall along the line */
+    double extra[2]; /* additional shift of the band */
 } line;
 
-/* What the band holds at one place of the line. */
+/* Contents of the band at one point of the line. */
 typedef struct sample {
     double fluid, solid; /* fractions */
-    double fill;         /* fluid fraction of what is not solid */
+    double fill;         /* fluid fraction of the non-solid part */
 } sample;
 
 /* Cubic B-spline, q in spacings. */
@@ -51,7 +54,8 @@ static double spline(double q)
     return q < 1 ? 2.0 / 3.0 + q * q * (0.5 * q - 1) : (2 - q) * (2 - q) * (2 - q) / 6;
 }
 
-/* What is below the surface, a bit for each phase: as asked for, or what is denser than the mean of the lightest and the heaviest there. */
+/* Phases below the surface, a bit for each: as requested, or those denser than the mean of the
+ * lightest and the heaviest present. */
 static uint32_t liquid_phases(mps__world *w, const mps_probe *c)
 {
     const mps__particles *s = &w->particles;
@@ -77,7 +81,7 @@ static void line_init(line *l, const mps__world *w, const mps_probe *c)
 {
     const mps__motion *m = &w->motion;
     *l = (line){.sides = w->setup.dim - 1, .dp = w->setup.dp, .length = c->length};
-    /* narrower bands would see single columns */
+    /* narrower bands would resolve single columns */
     l->width = fmax(c->diameter, 2 * w->setup.dp) / 2;
     mps__motion_point(m, &m->now, c->at, l->foot, NULL, NULL);
     mps__motion_rotate(m, &m->now, c->direction, l->along);
@@ -86,12 +90,12 @@ static void line_init(line *l, const mps__world *w, const mps_probe *c)
         mps__motion_rotate(m, &m->now, l->tank_across[e], l->across[e]);
 }
 
-/* True if particle i is close enough to be seen from any place of the line. */
+/* True if particle i is within the band of any point of the line. */
 static bool line_coordinates(const line *l, const mps__particles *s, int64_t i, beside *b)
 {
     const double *x = &s->x[i * s->dim];
     const double r[3] = {x[0] - l->foot[0], x[1] - l->foot[1], s->dim == 3 ? x[2] - l->foot[2] : 0};
-    /* most particles are beside the line, few before or behind it */
+    /* across first: most particles fail here, few along the line */
     for (int32_t e = 0; e < l->sides; e++) {
         b->across[e] = mps__dot(r, l->across[e], s->dim);
         if (fabs(b->across[e]) > 5 * l->width) return false;
@@ -116,7 +120,7 @@ static int compare_places(const void *a, const void *b)
     return (i->id > j->id) - (i->id < j->id);
 }
 
-/* Particles beside the line; phases that are not below the surface are left out. */
+/* Particles near the line, without phases that are above the surface. */
 static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
 {
     const mps__particles *s = &w->particles;
@@ -164,8 +168,8 @@ static bool near_axis(const line *l, const beside *b)
     return near;
 }
 
-/* Beside a wall the band is moved off it, so that it looks at fluid and not at a film: its centre is at least two thirds
- * of the diameter away. */
+/* Beside a wall the band is moved off it, so that it samples fluid and not a film: its centre is at
+ * least two thirds of the diameter away. */
 static void band_shift(const line *l, double s, double shift[2])
 {
     double low[2] = {-INFINITY, -INFINITY}, high[2] = {INFINITY, INFINITY},
@@ -175,7 +179,7 @@ static void band_shift(const line *l, double s, double shift[2])
         const beside *b = &l->list[k];
         if (!b->solid || !near_axis(l, b)) continue;
         for (int32_t e = 0; e < l->sides; e++) {
-            /* a line well behind a face is inside the solid and stays there */
+            /* a line far behind a face is inside the solid and stays there */
             if (b->facing[e] > 0.5 && b->across[e] < 0.75 * l->dp)
                 low[e] = fmax(low[e], b->across[e]);
             if (b->facing[e] < -0.5 && b->across[e] > -0.75 * l->dp)
@@ -207,7 +211,8 @@ static sample line_sample(const line *l, double s)
     return out;
 }
 
-/* Between low (more than half full) and high, to 1e-7 of them; under a ceiling the fluid alone counts. */
+/* Bisection between low (more than half full) and high, to 1e-7; under a ceiling only the fluid
+ * counts. */
 static double crossing(const line *l, double low, double high, bool ceiling)
 {
     for (int k = 0; k < 24; k++) {
@@ -229,7 +234,8 @@ static bool gap_closes(const line *l, double s, double step)
     return false;
 }
 
-/* How far the band could move on to the side `sign` of e before it comes as near to a solid as it is to the first. */
+/* Distance by which the band can move in direction `sign` of side e until it is as close to a solid
+ * as to the first one. */
 static double room(const line *l, double s, const double shift[2], int32_t e, double sign)
 {
     double least = INFINITY;
@@ -245,8 +251,9 @@ static double room(const line *l, double s, const double shift[2], int32_t e, do
     return least;
 }
 
-/* Slope of the surface towards side e, from a second band `ahead` further on; none where it is steeper than the first
- * band is wide: that is the end of a run-up. Between slopes of 1/2 and 1 the use of it fades. */
+/* Slope of the surface along side e, from a second band at distance `ahead`; 0 if it is steeper
+ * than the width of the first band: that is the end of a run-up. Its weight decreases to 0 between
+ * slopes of 1/2 and 1. */
 static double slope_ahead(line *l, double surface, int32_t e, double ahead)
 {
     const double low = surface - fabs(ahead), high = surface + fabs(ahead);
@@ -258,13 +265,14 @@ static double slope_ahead(line *l, double surface, int32_t e, double ahead)
     return slope * fmin(fmax(2 - 2 * fabs(slope), 0), 1);
 }
 
-/* 1 where nothing is above the surface; a film on the wall lifts the first band only, and that is no slope. */
+/* 1 if nothing is above the surface; a film on the wall raises the reading of the first band only,
+ * and is no slope. */
 static double clear_above(const line *l, double surface)
 {
     return fmax(0, 1 - 10 * line_sample(l, surface + 3 * l->dp).fluid);
 }
 
-/* Where the band was moved off a wall it saw the surface there; from that to the line it goes on straight. */
+/* Extrapolate linearly to the line if the band was moved off a wall. */
 static double at_line(line *l, double surface)
 {
     double shift[2], out = surface;
@@ -280,8 +288,8 @@ static double at_line(line *l, double surface)
     return out;
 }
 
-/* From the end of the filling down to the centres of the top row: the mean over the surface particles in the band, half a
- * spacing where there are none, or where they are not a row below it. */
+/* Distance from the end of the filling to the centres of the top layer: mean over the surface
+ * particles in the band; half a spacing if there are none, or if they are not a layer below it. */
 static double row_below(const line *l, double surface)
 {
     double sum = 0, weights = 0, shift[2];
@@ -299,15 +307,15 @@ static double row_below(const line *l, double surface)
     return fabs(depth - 0.5 * l->dp) < 0.3 * l->dp ? depth : 0.5 * l->dp;
 }
 
-/* Places looked at along a line, at most. */
+/* Maximum number of sampling points on a line. */
 static const double most_samples = 1e15;
 
-/* March from the foot to the place where the filling ends. */
+/* March from the foot to the point where the filling ends. */
 static double find_surface(line *l)
 {
-    double step = 0.5 * l->dp, wet = -1; /* the last place seen full */
-    bool solid = false;                  /* the last sample was */
-    /* beyond the last particle there is nothing to march through, however long the line is */
+    double step = 0.5 * l->dp, wet = -1; /* last full point */
+    bool solid = false;                  /* state of the last sample */
+    /* nothing to sample beyond the last particle, however long the line is */
     const double top = l->count > 0 ? l->list[l->count - 1].s : 0;
     const int64_t last = (int64_t)ceil(
         fmin(fmin(l->length, fmax(top, 0) + 10 * l->dp) / step, most_samples));

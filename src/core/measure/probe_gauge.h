@@ -5,7 +5,8 @@
 
 #include "probes.h"
 
-/* Distance from config->at along config->direction (of unit length, tank's frame) to the free surface. */
+/* Distance from config->at along config->direction (unit length, tank frame) to the free
+ * surface. */
 mps_status mps__gauge_measure(mps__world *w, const mps_probe *config, double *value);
 
 #endif

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall pressure over the area of a sensor: a disc in 3-D, a strip in 2-D, cut off where the face ends.
+/* Wall pressure over the area of a sensor: a disc in 3-D, a strip in 2-D, clipped at the ends of
+ * the face.
  *
- * Between the particles of a face on the lattice pressure is linear (3-D: bilinear), so its integral over the sensor is a
- * weighted sum of theirs. Along a line the weights are integrals of tent functions in closed form; a disc is summed over
- * chords at equal steps of the angle, which is exact for linear pressures (Gauss-Chebyshev) and moves smoothly with the
- * sensor. Where the particles are not on a lattice, the weights are corrected so that a linear pressure stays exact. On an edge the face has a
- * pressure of its own: probe_edge.c. */
+ * Pressure is linear between the lattice particles of a face (3-D: bilinear), so its integral over
+ * the sensor is a weighted sum. Along a line the weights are closed-form integrals of tent
+ * functions; a disc is integrated over chords at equal steps of the angle, which is exact for
+ * linear pressures (Gauss-Chebyshev) and varies smoothly with the sensor position. For particles
+ * off a lattice the weights are corrected so that a linear pressure stays exact. On an edge the
+ * face has its own pressure: probe_edge.c. */
 #include "probe_sensor.h"
 #include "angles.h"
 #include "gather.h"
@@ -15,16 +17,16 @@
 #include <string.h>
 enum { CHORDS = 256 };
 
-/* Half width of the tents that are tried, in spacings. */
+/* Half widths of the tent functions tried, in spacings. */
 static const double widths[] = {1, 1.3, 1.7, 2.2};
 
-/* Sum of the absolute weights up to which narrow tents are good: noise is amplified by no more. */
+/* Largest accepted sum of absolute weights of narrow tents: the bound of noise amplification. */
 static const double tame = 1.3;
 
 static mps__sensor_face face_of(const mps__world *w, const mps__face_solid *e, const double *n)
 {
     mps__sensor_face face = {.part = w->particles.part[e->place]};
-    for (int d = 0; d < 3; d++) face.normal[d] = n[d] + 0.0; /* no -0 */
+    for (int d = 0; d < 3; d++) face.normal[d] = n[d] + 0.0; /* avoids -0 */
     return face;
 }
 
@@ -61,7 +63,8 @@ static double tent_integral(double q)
     return q < 0 ? 0.5 * (1 + q) * (1 + q) : 1 - 0.5 * (1 - q) * (1 - q);
 }
 
-/* Ends along side e of a chord that reaches `half` to both sides, cut off at the face's ends; false if nothing is left. */
+/* Ends along side e of a chord of half length `half`, clipped at the face's ends; false if nothing
+ * remains. */
 static bool chord(const mps__face *f, int e, double half, double *from, double *to)
 {
     *from = fmax(-half, f->lo[e]);
@@ -76,7 +79,7 @@ static double along(const mps__face *f, const mps__face_point *u, int e, double 
     return tent_integral((to - u->at[e]) / f->width) - tent_integral((from - u->at[e]) / f->width);
 }
 
-/* Call for each chord of a disc: the place across, half its length, its share of the area. */
+/* Call for each chord of a disc: position across, half length, area fraction. */
 static void chord_of_disc(const mps__face *f, int k, double *across, double *half, double *share)
 {
     const double from = mps__asin(fmin(fmax(f->lo[0] / f->radius, -1), 1)),
@@ -98,7 +101,7 @@ static double under_disc(const mps__face *f, const mps__face_point *u)
     return sum;
 }
 
-/* Centroid of what the sensor covers; false if that is nothing. */
+/* Centroid of the covered area; false if it is empty. */
 static bool find_target(mps__face *f)
 {
     double area = 0, from, to, across, half, share;
@@ -119,8 +122,9 @@ static bool find_target(mps__face *f)
     return area > 0;
 }
 
-/* Factor of a weight at q from the target: k[0] + k[1] q[0] + k[2] q[1], so that the sum of the weights is 1 and their centroid the target.
- * False if the particles do not allow it. The weights of a lattice get no more than their sum's inverse. */
+/* Correction factor of a weight at q from the target: k[0] + k[1] q[0] + k[2] q[1], so that the
+ * weights sum to 1 and their centroid is the target. False if the particles do not allow it. On a
+ * lattice the factor is 1/sum. */
 static bool correction(const mps__face *f, double k[3])
 {
     double s0 = 0, s1[2] = {0, 0}, s2[3] = {0, 0, 0}, g[2] = {0, 0};
@@ -153,7 +157,8 @@ static bool correction(const mps__face *f, double k[3])
     return true;
 }
 
-/* Weights by tents of the face's width. Returns the sum of their absolute values, by which they amplify noise; INFINITY: there are none. */
+/* Weights of tents of the face's width. Returns the sum of their absolute values, the noise
+ * amplification; INFINITY: no weights. */
 static double weigh(mps__face *f)
 {
     double k[3], sum = 0;
@@ -169,7 +174,7 @@ static double weigh(mps__face *f)
     return sum;
 }
 
-/* The narrowest tents whose weights are good, or else the best ones. False without weights. */
+/* Use the narrowest tents with accepted weights, or else the best ones. False without weights. */
 static bool weigh_best(mps__face *f)
 {
     enum { WIDTHS = sizeof widths / sizeof widths[0] };
@@ -186,7 +191,7 @@ static bool weigh_best(mps__face *f)
     return best > 0 && isfinite(weigh(f));
 }
 
-/* The particles that have a weight, and those that the pressures on edges need, numbered anew. */
+/* Keep the particles with a weight and those needed for edge pressures, renumbered. */
 static mps_status keep_weights(mps__context *c, mps__face *f, mps__sensor *sensor,
                                mps__edges *edges)
 {
@@ -216,7 +221,7 @@ mps_status mps__sensor_build(mps__world *w, const mps_probe *config, mps__sensor
     mps_status status = mps__face_find(&f, w, config);
     if (status == MPS_OK && !weigh_best(&f)) f.count = 0;
     if (status == MPS_OK) status = keep_weights(w->context, &f, sensor, &edges);
-    /* all of it is beside the face, or a single particle */
+    /* the whole sensor is beside the face, or there is a single particle */
     if (status == MPS_OK && sensor->count == 0)
         sensor->list[sensor->count++] = (mps__sensor_weight){f.base->id, f.base->place, 1};
     if (status == MPS_OK) sensor->face = face_of(w, f.base, f.normal);
@@ -251,7 +256,7 @@ static int compare_id(const void *key, const void *entry)
     return (i > j) - (i < j);
 }
 
-/* The particles were sorted: look up where those of this rank are now. */
+/* Update the indices of this rank's particles after sorting. */
 static void locate(const mps__world *w, mps__sensor *sensor)
 {
     const mps__particles *s = &w->particles;
@@ -264,7 +269,7 @@ static void locate(const mps__world *w, mps__sensor *sensor)
     }
 }
 
-/* Whether particles came or went since the weights were found. */
+/* Whether particles were added or removed since the weights were computed. */
 static bool is_old(const mps__world *w, const mps__sensor *sensor)
 {
     if (mps__ranks_many(w->ghosts.ranks)) return sensor->links != w->lists.links;
@@ -282,7 +287,7 @@ static mps_status build_again(mps__world *w, const mps_probe *config, mps__senso
     return status;
 }
 
-/* Where the particles are on this rank, -1: on another one. */
+/* Indices of the particles on this rank, -1: on another rank. */
 static void locate_owned(const mps__world *w, mps__sensor *sensor)
 {
     if (sensor->orders == w->lists.orders && w->lists.orders > 0) return;
@@ -299,7 +304,7 @@ static void either(void *into, const void *from)
     if (a == 0) memcpy(into, &b, sizeof b);
 }
 
-/* Pressures of the particles, from the ranks that own them. */
+/* Collect the pressures of the particles from the ranks that own them. */
 static mps_status collect_pressures(mps__world *w, mps__sensor *sensor, double *p)
 {
     locate_owned(w, sensor);

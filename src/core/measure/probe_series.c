@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Moving averages and samples of a probe. The signal is linear between steps; both are exact for that. */
+/* Moving averages and samples of a probe. The signal is linear between steps; both are exact for
+ * it. */
 #include "probe_series.h"
 #include <math.h>
 #include <string.h>
 
-/* A sample is due when it is late by rounding only, in its own intervals. */
+/* A sample is due if it is late by rounding only, in sampling intervals. */
 static const double rounding = 1e-9;
 
-/* Sample numbers beyond this are not exact; memory ends long before. */
+/* Larger sample numbers are not exact; memory is exhausted long before. */
 static const double most_samples = 9e15;
 
 static double *row_at(const mps__series *s, int64_t k)
@@ -54,9 +55,9 @@ void mps__series_mean(const mps__series *s, double from, double to, double *out)
     for (int32_t v = 0; v < s->size; v++) out[v] /= covered;
 }
 
-/* ---- taking ---- */
+/* ---- recording ---- */
 
-/* Drop what is older than the average needs. */
+/* Drop rows older than the averaging interval. */
 static void trim(mps__series *s, double oldest)
 {
     while (s->first + 1 < s->rows && row_at(s, s->first + 1)[0] <= oldest) s->first++;
@@ -81,7 +82,7 @@ static int64_t sample_number(double t, double rate, bool inclusive)
                          most_samples);
 }
 
-/* Room for two rows and `samples` samples. */
+/* Allocate two rows and `samples` samples. */
 static mps_status reserve(mps__context *c, mps__series *s, int64_t samples)
 {
     const int64_t width = 1 + s->size, total = s->count + samples;

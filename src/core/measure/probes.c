@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Probes: checks when one is added, forces. Wall sensors, fluid pressures, gauges and series have files of their own. */
+/* Probes: checks of new probes, forces. Wall sensors, fluid pressures, gauges and series have their
+ * own files. */
 #include "probes.h"
 #include "gather.h"
 #include "plates.h"
@@ -12,7 +13,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Fastest sampling [Hz], so that samples can be counted. */
+/* Highest sampling rate [Hz], so that sample numbers stay exact. */
 static const double RATE_MAX = 1e9;
 
 void mps__probe_across(int32_t dim, const double d[3], double out[2][3])
@@ -42,8 +43,9 @@ static bool part_matches(const char *wanted, const char *name)
     return strcmp(wanted, name) == 0;
 }
 
-/* Particles on an edge of a tank carry area of two or three faces but one part: the component of the area across axis d
- * belongs to the face it looks away from, "<name>.x0" if it points along +x; at the foot of a thin plate to the plate. */
+/* Particles on an edge of a tank have area of two or three faces but one part: the component of the
+ * area along axis d belongs to the face it points away from, "<name>.x0" if it points along +x; at
+ * the foot of a thin plate it belongs to the plate. */
 static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i, int d)
 {
     const mps__particles *s = &w->particles;
@@ -65,7 +67,7 @@ static bool face_wanted(const mps__world *w, const mps__probe *probe, int64_t i,
     return part_matches(probe->part_name, name);
 }
 
-/* Force and moment about `at` of what verbs reported; on the fluid. */
+/* Reported force on the fluid and its moment about `at`. */
 static void add_reactions(const mps__world *w, const mps__probe *probe, const double at[3],
                           double total[6])
 {
@@ -91,7 +93,8 @@ static void add_reactions(const mps__world *w, const mps__probe *probe, const do
     }
 }
 
-/* -p A on every wall particle of the part, A points into the fluid, and the reactions of the part. */
+/* Sum of -p A over the wall particles of the part, A points into the fluid, and the reported
+ * reactions of the part. */
 static void measure_force(const mps__world *w, const mps__probe *probe, double *values)
 {
     const mps__particles *s = &w->particles;
@@ -148,7 +151,7 @@ static bool solids_box(const mps__world *w, double lo[3], double hi[3])
 
 static mps_status check_place(const mps__world *w, const mps_probe *c)
 {
-    /* sensors have limits of their own, see check_wall() */
+    /* sensors have their own limits, see check_wall() */
     const double slack = (c->type == MPS_PROBE_WALL_PRESSURE ? 2 : 1e-6) * w->setup.dp;
     double lo[3], hi[3];
     if (!solids_box(w, lo, hi))
@@ -161,7 +164,7 @@ static mps_status check_place(const mps__world *w, const mps_probe *c)
     return MPS_OK;
 }
 
-/* The direction in which the face looks, of length 1; 0 stays. */
+/* Normalise the face normal to unit length; 0 stays. */
 static mps_status check_normal(const mps__world *w, mps_probe *c)
 {
     const double *n = c->normal, z = w->setup.dim == 3 ? n[2] : 0,
@@ -174,7 +177,8 @@ static mps_status check_normal(const mps__world *w, mps_probe *c)
     return MPS_OK;
 }
 
-/* A sensor belongs on its wall: rounding of a later tank puts it up to half a spacing behind a face or beyond its end. */
+/* A sensor must be on its wall: rounding of a later tank moves it up to half a spacing behind a
+ * face or beyond its end. */
 static mps_status check_wall(mps__world *w, mps_probe *c, mps__sensor_place *place)
 {
     MPS__TRY(check_normal(w, c));
@@ -198,7 +202,8 @@ static mps_status check_wall(mps__world *w, mps_probe *c, mps__sensor_place *pla
     return MPS_OK;
 }
 
-/* From a place to where the line leaves the box of all solids, or the domain if it was given. */
+/* Distance from a point to where the line leaves the box of all solids, or the domain if one was
+ * set. */
 static double line_length(const mps__world *w, const mps_probe *c)
 {
     double lo[3], hi[3], length = INFINITY;
@@ -290,7 +295,7 @@ void mps__probes_free(mps__context *c, mps__probes *p)
     *p = (mps__probes){0};
 }
 
-/* The probe's own copy of its name, which no other probe has. */
+/* Copy the name into the probe; names are unique. */
 static mps_status take_name(mps__context *c, const mps__probes *all, mps__probe *p)
 {
     const char *name = p->config.name;
@@ -306,15 +311,15 @@ static mps_status take_name(mps__context *c, const mps__probes *all, mps__probe 
     return MPS_OK;
 }
 
-/* What a checked definition needs besides; the caller frees it if it fails. */
+/* Allocate what a checked definition needs; the caller frees it on failure. */
 static mps_status complete(mps__world *w, mps__probe *p)
 {
     const char *part = p->config.part;
     if (part) {
         MPS__CHECK(w->context, mps__name_copy(p->part_name, sizeof p->part_name, part),
                    "probe.part must have 1..%d characters", MPS__PART_NAME - 1);
-        p->config.part =
-            ""; /* only says that there is one: part_name holds it and may move with the list */
+        /* only marks its existence: part_name stores it and may move with the list */
+        p->config.part = "";
     }
     p->series.step = -1;
     p->series.size = mps__probe_values(w, p);
@@ -322,7 +327,7 @@ static mps_status complete(mps__world *w, mps__probe *p)
                                                      : MPS_OK;
 }
 
-/* Ranks look at the solids of all. */
+/* Ranks use the solids of all ranks. */
 static mps_status prepare(mps__world *w, const mps__probes *all, mps__probe *p,
                           mps__sensor_place *place)
 {
@@ -344,7 +349,7 @@ const char *mps__probe_label(const mps__probes *p, int64_t id, char out[MPS__PRO
     return out;
 }
 
-/* Say which of two faces a sensor reads, where both are about as near. */
+/* Log which of two faces a sensor reads if both are about as near. */
 static void note_face(const mps__world *w, const mps__probes *p, int64_t k,
                       const mps__sensor_place *place)
 {
@@ -354,7 +359,7 @@ static void note_face(const mps__world *w, const mps__probes *p, int64_t k,
     char label[MPS__PROBE_LABEL];
     if (!place->has_rival) return;
     for (int a = 0; a < 2; a++) part[a] = f[a]->part >= 0 ? w->particles.part_name[f[a]->part] : "";
-    for (int a = 0; a < 2; a++) /* without what rounding left of 0 */
+    for (int a = 0; a < 2; a++) /* without the rounding error of 0 */
         for (int d = 0; d < 3; d++) n[a][d] = fabs(f[a]->normal[d]) > 1e-9 ? f[a]->normal[d] : 0;
     mps__log(w->context, MPS_LOG_INFO,
              "probe %s reads the face with the normal (%.4g, %.4g, %.4g), part \"%s\"; another is "
@@ -415,14 +420,15 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
     }
 }
 
-/* What a probe averages over at present [s]. */
+/* Present averaging interval of a probe [s]. */
 static double window(const mps__world *w, const mps_probe *c)
 {
     return c->average == MPS_AVERAGE_AUTO ? w->state.crossing_time : c->average;
 }
 
-/* Say once that a pressure is averaged over less than the resolution can tell. A force without any mean is not read for its peaks: it is the load
- * of the step, for a host that moves a body by it or makes means of its own. */
+/* Warn once that a pressure is averaged over less than the resolution allows. A force without
+ * averaging is not evaluated for peaks: it is the load of the step, for an application that moves a
+ * rigid body with it or averages it itself. */
 static void note_window(mps__world *w, const mps__probes *p, int64_t k)
 {
     const mps_probe *c = &p->list[k].config;
@@ -438,7 +444,8 @@ static void note_window(mps__world *w, const mps__probes *p, int64_t k)
              w->state.t, mps__probe_label(p, k, label), c->average, w->state.crossing_time);
 }
 
-/* Say once that a force lags, to a host that moves the tank step by step and does not ask for its load otherwise. */
+/* Warn once that a force lags, if the application moves the tank step by step and does not request
+ * its load otherwise. */
 static void note_lag(mps__world *w, mps__probes *p, int64_t k)
 {
     mps__probe *f = &p->list[k];
@@ -459,7 +466,7 @@ mps_status mps__probe_take(mps__world *w, mps__probe *p)
     if ((p->config.average == 0 && p->config.rate == 0) || p->series.step == w->state.step)
         return MPS_OK;
     if (w->state.step == 0 && p->config.type != MPS_PROBE_GAUGE) {
-        /* there is no pressure before the first step: what it brings holds from the beginning */
+        /* there is no pressure before the first step: its value applies from the beginning */
         p->series.waits = true;
         p->series.start = w->state.t;
         return MPS_OK;

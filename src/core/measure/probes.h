@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Probes look at the world and change nothing. */
+/* Probes read the simulation and change nothing. */
 #ifndef MPS_CORE_PROBES_H
 #define MPS_CORE_PROBES_H
 
@@ -13,8 +13,8 @@ typedef struct mps__probe {
     char part_name[MPS__PART_NAME], name[MPS__PART_NAME]; /* "": none; config.name is NULL */
     mps__sensor sensor;                                   /* of a wall pressure */
     mps__series series;                                   /* of an average or a rate */
-    bool removed;  /* its place in the list stays: numbers are not used again */
-    bool lag_told; /* that its force must not drive a body */
+    bool removed;  /* its index stays in use: numbers are not reused */
+    bool lag_told; /* a warning that its force must not drive a rigid body */
 } mps__probe;
 
 typedef struct mps__probes {
@@ -25,7 +25,7 @@ typedef struct mps__probes {
 void mps__probes_free(mps__context *c, mps__probes *p);
 mps_status mps__probes_add(mps__world *w, mps__probes *p, const mps_probe *probe, int32_t *id);
 void mps__probe_remove(mps__context *c, mps__probe *p);
-/* "3 'P1'", or "3" for a probe without a name: for messages. */
+/* Label in error texts: "3 'P1'", or "3" for a probe without a name. */
 enum { MPS__PROBE_LABEL = MPS__PART_NAME + 32 };
 const char *mps__probe_label(const mps__probes *p, int64_t id, char out[MPS__PROBE_LABEL]);
 int32_t mps__probe_values(const mps__world *w, const mps__probe *p);
@@ -33,10 +33,11 @@ int32_t mps__probe_values(const mps__world *w, const mps__probe *p);
 mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values);
 /* The present value, or the mean of the last `average` seconds. */
 mps_status mps__probe_read(mps__world *w, mps__probe *p, double *values);
-/* Take the present value into the series, once for each step; all that can fail of a series happens here. */
+/* Add the present value to the series, once per step; everything that may fail for a series happens
+ * here. */
 mps_status mps__probe_take(mps__world *w, mps__probe *p);
 mps_status mps__probes_take(mps__world *w, mps__probes *p);
-/* Unit vectors across a direction of unit length: along lattice axes if that is. */
+/* Unit vectors normal to a direction of unit length: along lattice axes if that is. */
 void mps__probe_across(int32_t dim, const double direction[3], double out[2][3]);
 mps_status mps__energy_measure(mps__world *w, mps_energy *e);
 mps_status mps__momentum_measure(const mps__world *w, mps_momentum *m);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies of fluid for verbs of models: found on each rank by a search from row to row, then put together. */
+/* Droplets for verbs of models: breadth-first searches on each rank, then merging across ranks. */
 #include "bodies.h"
 
-/* Rows of a body in the order in which they were found. */
+/* Members of a droplet in the order in which they were found. */
 typedef struct search {
     const mps_view *s;
     const int32_t *role;
     int32_t *body, *queue;
     int64_t found;
     int32_t most;
-    bool many; /* ranks */
+    bool many; /* more than one rank */
 } search;
 
-/* In `body` until all is over: not looked at; member of a body that is held; row of another rank. */
+/* Temporary values of `body`: not visited; member of an anchored droplet; particle of another
+ * rank. */
 enum { NEW = -1, HELD = -2, ELSEWHERE = -3 };
 
 static bool belongs(const search *k, int64_t i)
@@ -26,7 +27,8 @@ static void join(search *k, int64_t i, int32_t number)
     k->queue[k->found++] = (int32_t)i;
 }
 
-/* Look at the neighbours of row i. @return whether one of them holds the body; new members join it */
+/* Visit the neighbours of particle i; new members join its droplet. @return whether a neighbour
+ * anchors it */
 static bool is_held(search *k, int64_t i)
 {
     const mps_stencil *t = &k->s->near;
@@ -39,7 +41,7 @@ static bool is_held(search *k, int64_t i)
     return false;
 }
 
-/* Whether row i has a member of another rank beside it. */
+/* Whether particle i has a neighbouring member on another rank. */
 static bool at_border(const search *k, int64_t i)
 {
     const mps_stencil *t = &k->s->near;
@@ -50,15 +52,16 @@ static bool at_border(const search *k, int64_t i)
     return false;
 }
 
-/* Searches begin at seeds, and at borders: the seed of a body may be on another rank. */
+/* Searches begin at seeds and at rank borders: the seed of a droplet may be on another rank. */
 static bool begins(const search *k, int64_t i)
 {
     if (k->body[i] != NEW || !belongs(k, i)) return false;
     return k->role[i] == MPS_BODY_SEED || at_border(k, i);
 }
 
-/* Set body[] of each row. A search ends as soon as the body is known to be held; later searches of the same body meet a row of this one.
- * @return number of bodies that are free as far as they are here */
+/* Set body[] of each particle. A search ends when the droplet is known to be anchored; later
+ * searches in it reach one of its marked members.
+ * @return number of droplets that are free on this rank */
 static int32_t find_bodies(search *k, const mps__ghosts *g)
 {
     int32_t count = 0;
@@ -78,7 +81,7 @@ static int32_t find_bodies(search *k, const mps__ghosts *g)
     return count;
 }
 
-/* List the parts of bodies that are here. */
+/* List the droplet parts of this rank. */
 static mps_status list_parts(const search *k, int32_t count, mps__sets *sets)
 {
     for (int32_t c = 0; c < count; c++)
@@ -93,7 +96,8 @@ static mps_status list_parts(const search *k, int32_t count, mps__sets *sets)
     return MPS_OK;
 }
 
-/* Join what borders part. `label` [n] is scratch: the part of a row, -1: held or none. Labels are ids, which doubles hold. */
+/* Join parts across rank borders. `label` [n] is scratch: the label of a particle's part, -1:
+ * anchored or none. Labels are ids, which doubles represent exactly. */
 static mps_status join_border(const search *k, mps__host *h, double *label)
 {
     const mps_stencil *t = &k->s->near;
@@ -126,7 +130,7 @@ void mps__bodies_number(mps__sets *sets, int32_t most)
     }
 }
 
-/* Put the parts together; body[] becomes the number of a free body or -1. Borrows two blocks. */
+/* Merge the parts; body[] becomes the number of a free droplet or -1. Uses two scratch blocks. */
 static int merge_bodies(mps_stage *s, search *k, int32_t count)
 {
     mps__host *h = s->host;
@@ -162,7 +166,7 @@ static int find_free(mps_stage *s, int32_t most, int32_t *role, int32_t *body)
     if (!k.queue || mps_stage_refresh(s, 1, &shared)) return 1;
     const int32_t count = find_bodies(&k, h->ghosts);
     if (merge_bodies(s, &k, count)) return 1;
-    h->scratch_used--; /* the queue is not needed any more */
+    h->scratch_used--; /* release the queue */
     return 0;
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Bodies of fluid at a device: trees of joined rows. Only rows of bodies that nothing holds come to the host, which counts and numbers them: drops,
- * few of all rows. */
+/* Droplets on a device by union-find. Only members of droplets without an anchor are copied to the
+ * host, which counts and numbers the droplets: a small part of all particles. */
 #include "bodies.h"
 #include "forest.h"
 #include "loop.h"
@@ -8,21 +8,24 @@
 
 typedef struct joining {
     const int32_t *role;
-    const uint8_t *ghost;              /* NULL: alone */
-    mps__shared_number *parent, *held; /* of a root: 1 if a row of its tree is beside an anchor */
-    int64_t *number; /* of a row without an anchor; of others that of the one before */
-    int64_t *list; /* of such a row its id; place of its root in this list, and flags of the row */
-    const int32_t *given; /* bodies of those rows */
+    const uint8_t *ghost;              /* NULL: one rank */
+    mps__shared_number *parent, *held; /* of a root: 1 if a member of its set is beside an anchor */
+    /* list number of a member of an unanchored droplet; of other particles that of the previous
+     * one */
+    int64_t *number;
+    /* of each listed particle its id; list index of its root, and flags of the particle */
+    int64_t *list;
+    const int32_t *given; /* droplet of each listed particle */
     int32_t *body;
 } joining;
 
-/* Whether row i is one of a tree here. */
+/* Whether particle i is in a set of this rank. */
 MPS_ROW bool has(const mps_view *v, const joining *f, int64_t i)
 {
     return mps__owns(f->ghost, i) && mps__body_has(v, f->role, i);
 }
 
-/* Most rows come into the tree of their first neighbour at once. */
+/* Initialise the parent with the first neighbour: most particles join its set at once. */
 MPS_ROW void begin_row(const int dim, const mps_view *v, const joining *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -70,13 +73,13 @@ MPS_ROW void mark_row(const int dim, const mps_view *v, const joining *f, int64_
 }
 MPS_ROWS(mark_rows, mark_row, joining)
 
-/* Whether a row is in the list, once numbers are there. */
+/* Whether a particle is in the list, once `number` is summed. */
 MPS_ROW bool is_listed(const joining *f, int64_t i)
 {
     return f->number[i] > (i > 0 ? f->number[i - 1] : 0);
 }
 
-/* Whether a row has a member of another rank beside it. */
+/* Whether a particle has a neighbouring member on another rank. */
 MPS_ROW bool at_border(const mps_view *v, const joining *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -87,7 +90,7 @@ MPS_ROW bool at_border(const mps_view *v, const joining *f, int64_t i)
     return false;
 }
 
-/* A place and flags in one number. */
+/* Encoding of an index and flags in one number. */
 enum { FLAGS = 8 };
 
 MPS_ROW void list_row(const int dim, const mps_view *v, const joining *f, int64_t i)
@@ -111,7 +114,7 @@ MPS_ROWS(give_rows, give_row, joining)
 
 /* ---- on the host ---- */
 
-/* Parts of bodies, from the rows in a list: a root is the first of its rows. */
+/* Droplet parts from the listed particles: a root precedes its members. */
 static mps_status list_parts(mps__host *h, int64_t *list, int64_t count, int32_t *body)
 {
     mps__sets *sets = &h->sets;
@@ -128,7 +131,8 @@ static mps_status list_parts(mps__host *h, int64_t *list, int64_t count, int32_t
     return MPS_OK;
 }
 
-/* Large parts are held, wherever they go on. @return whether any rank has another part that goes on elsewhere */
+/* Large parts count as anchored, also if they continue on other ranks. @return whether any rank has
+ * another part that continues elsewhere */
 static bool any_parted(mps__host *h, int32_t most)
 {
     mps__sets *sets = &h->sets;
@@ -143,7 +147,8 @@ static bool any_parted(mps__host *h, int32_t most)
     return any > 0;
 }
 
-/* Bodies of the rows in a list. `parted`: they cannot be told from what each rank has alone. */
+/* Number the droplets of the listed particles. `parted`: the numbers need the searches of all
+ * ranks. */
 static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int32_t most,
                                 int32_t *body, bool *parted)
 {
@@ -151,7 +156,7 @@ static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int3
     MPS__TRY(list_parts(h, list, count, body));
     *parted = any_parted(h, most);
     if (*parted) return MPS_OK;
-    /* merging sorts the parts: labels are kept at their roots */
+    /* merging sorts the parts: store their labels at the roots */
     for (int64_t k = 0; k < count; k++)
         if (list[2 * k + 1] / FLAGS == k) list[2 * k] = sets->part[body[k]].label;
     MPS__TRY(mps__sets_merge(sets, h->ghosts->ranks));
@@ -161,7 +166,7 @@ static mps_status number_listed(mps__host *h, int64_t *list, int64_t count, int3
     return MPS_OK;
 }
 
-/* The list comes, and the bodies of its rows go. */
+/* Copy the list to the host and the droplet numbers to the device. */
 static int number_here(mps_stage *s, int64_t count, int32_t most, const joining *f, int32_t *given,
                        bool *parted)
 {
@@ -185,7 +190,7 @@ static int number_here(mps_stage *s, int64_t count, int32_t most, const joining 
     return failed;
 }
 
-/* ---- both ---- */
+/* ---- host and device ---- */
 
 static int number_bodies(mps_stage *s, int32_t most, joining *f, bool *parted)
 {

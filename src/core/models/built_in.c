@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The built-in models, in the order of lists. Verbs that write the same channel say themselves which is first. */
+/* The built-in models, in list order. Verbs that write the same channel declare their order. */
 #include "built_in.h"
 #include <stddef.h>
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The models and presets that come with the library. */
+/* Built-in models and presets. */
 #ifndef MPS_CORE_BUILT_IN_H
 #define MPS_CORE_BUILT_IN_H
 
@@ -38,19 +38,20 @@ extern const mps_model_ops mps__drag_lone;
 extern const mps_model_ops mps__collision_pair;
 extern const mps_model_ops mps__shift_tangential;
 
-/* All of them, ended by NULL. */
+/* All built-in models, terminated by NULL. */
 extern const mps_model_ops *const mps__built_in_models[];
 
-/* One line of a preset: switch a model on (key NULL), or change a number of the one switched on last. */
+/* Line of a preset: activate a model (key NULL), or change a setting of the model activated
+ * last. */
 typedef struct mps__preset_line {
     const char *model, *key;
     double value;
 } mps__preset_line;
 
-/* A list of models and settings, nothing a user could not write himself. */
+/* A list of models and settings that a user could also write. */
 typedef struct mps__preset {
     const char *name, *help;
-    const mps__preset_line *lines; /* ended by one without a model */
+    const mps__preset_line *lines; /* terminated by a line without a model */
 } mps__preset;
 
 enum { MPS__PRESETS = 4 };

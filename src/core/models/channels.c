@@ -205,7 +205,8 @@ static bool same_spec(const mps_channel *a, const mps_channel *b)
            a->life == b->life && a->initial == b->initial;
 }
 
-/* A channel that lives as long as a particle is a field. A field of this name that the user made is taken. */
+/* A channel with the lifetime of a particle is a field. An existing user field of this name is
+ * used. */
 static mps_status bring_field(mps__channels *c, mps__particles *s, const char *model,
                               const mps_channel *spec)
 {
@@ -230,7 +231,8 @@ static bool brings(const mps_model_ops *ops, const char *name)
     return false;
 }
 
-/* `leaving`: NULL, or the model that is about to leave. What it alone brings, and describes differently, stands beside the new one. */
+/* `leaving`: NULL, or the model to be deactivated. A channel that only this model has, with another
+ * description, coexists with the new one. */
 static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
                         const mps_channel *spec, const mps_model_ops *leaving)
 {
@@ -274,7 +276,7 @@ static void drop(mps__channels *c, int32_t k)
     c->count--;
 }
 
-/* The last channel of a name: the one that was brought last. */
+/* Index of the channel of this name that was added last. */
 static int32_t find_last(const mps__channels *c, const char *name)
 {
     int32_t k = c->count - 1;
@@ -293,7 +295,7 @@ mps_status mps__channels_bring(mps__channels *c, mps__particles *s, const mps_mo
         while (s->fields > fields) mps__particles_field_drop(s);
         return status;
     }
-    /* particles to come get the first value, also in fields that were there before */
+    /* new particles get the first value, also in fields that already existed */
     for (int32_t k = 0; k < ops->channel_count; k++)
         if (ops->channels[k].life == MPS_LIFE_PARTICLE)
             mps__particles_field(s, ops->channels[k].name)->begin = ops->channels[k].initial;
@@ -306,7 +308,8 @@ void mps__channels_drop(mps__channels *c, const mps_model_ops *ops)
         drop(c, mps__channels_find(c, ops->channels[k].name));
 }
 
-/* Nothing in the arena outlives a step. An even number of particles keeps numbers of eight bytes aligned. */
+/* Nothing in the arena outlives a step. An even number of particles keeps eight-byte numbers
+ * aligned. */
 mps_status mps__channels_reserve(mps__channels *c, int64_t n)
 {
     const int64_t even = n + n % 2, had = c->stride > 0 ? (int64_t)c->held / c->stride : 0;

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* On the host also where a device has a step: it never has other densities, kinds or phases. */
+/* On the host also for steps on a device: no step changes densities, kinds or phases there. */
 static void look(mps__densities *d, const mps__particles *s, const mps__ghosts *g)
 {
     for (int m = 0; m < 2 * MPS__PHASES; m++) d->most[m] = -INFINITY;

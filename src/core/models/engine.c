@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arrays of a step at two places. */
+/* Arrays of a step, mirrored in host and device memory. */
 #include "engine_twin.h"
 #include "later.h"
 #include <string.h>
@@ -7,13 +7,13 @@
 enum {
     FIELDS = MPS__TWIN_FIELDS,
     ALL = MPS__CHANNELS + MPS__FIELDS_MAX,
-    /* constants: settings of each model, then those of the world */
+    /* constants: settings of each model, then those of the simulation */
     VISCOSITIES = MPS__MODELS_ACTIVE * MPS__SETTINGS,
     TENSIONS = VISCOSITIES + MPS__PHASES,
     CONSTANTS = TENSIONS + MPS__PHASES * MPS__PHASES
 };
 
-/* ---- twins ---- */
+/* ---- mirrors ---- */
 
 static bool is_field_of(const mps__particles *s, int64_t serial)
 {
@@ -30,7 +30,7 @@ mps__twin *mps__twin_of_field(mps__twins *t, int32_t field)
     if (own->field == serial) return own;
     while (k < MPS__FIELDS_MAX && list[k].field != serial) k++;
     const bool is_new = k == MPS__FIELDS_MAX;
-    /* one of no field: there are as many twins as fields may be */
+    /* a mirror of no field: there are as many mirrors as fields at most */
     for (k = is_new ? 0 : k; is_new && is_field_of(t->particles, list[k].field);) k++;
     const mps__twin found = list[k];
     list[k] = *own;
@@ -40,7 +40,7 @@ mps__twin *mps__twin_of_field(mps__twins *t, int32_t field)
     return own;
 }
 
-/* The twin of the field that an array of the host is; NULL: it is none. */
+/* Mirror of the field with this host array, or NULL. */
 static mps__twin *twin_of_array(mps__twins *t, const void *array)
 {
     for (int32_t k = 0; array && k < t->particles->fields; k++)
@@ -48,7 +48,8 @@ static mps__twin *twin_of_array(mps__twins *t, const void *array)
     return NULL;
 }
 
-/* The twin of a channel; NULL: it has none. Places and areas of solids are fields of the particles where no model writes them. */
+/* Mirror of a channel, or NULL. Positions and areas of solids are fields of the particles if no
+ * model writes them. */
 mps__twin *mps__twin_of(mps__twins *t, int32_t channel)
 {
     if (channel < 0) return NULL;
@@ -61,7 +62,7 @@ mps__twin *mps__twin_of(mps__twins *t, int32_t channel)
     return twin ? twin : &t->list[channel];
 }
 
-/* These values are not read any more. */
+/* Tell the device that these values are not read any more. */
 static void outdate(mps__twins *t, const mps__twin *twin, void *array)
 {
     mps__device_outdate(&t->device, array, twin->bytes, twin->number);
@@ -99,8 +100,8 @@ void mps__twin_copy(mps__twins *t, mps__twin *twin, void *host, int32_t place)
     twin->old[place] = t->device.failed;
 }
 
-/* Lists of the host whose rows change are not outdated: what they hold is an older parting of the same candidates, from which rows can be found
- * again where the device fails. */
+/* Host lists stay readable when their rows change on the device: they hold an older partition of
+ * the same candidates, from which the rows can be rebuilt if the device fails. */
 static bool is_list(const mps__twins *t, const mps__twin *twin)
 {
     return twin >= t->block && twin < t->block + MPS__LASTING;
@@ -133,7 +134,7 @@ void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_par
 
 void mps__twins_free(mps__twins *t)
 {
-    if (!t->channels) return; /* no memory before anything had begun */
+    if (!t->channels) return; /* initialisation ran out of memory */
     for (int32_t k = 0; k < ALL; k++) mps__twin_give_back(t, &t->list[k]);
     for (int32_t k = 0; k < MPS__BLOCKS; k++) mps__twin_give_back(t, &t->block[k]);
     for (int32_t k = 0; k < MPS__SCRATCH; k++) mps__twin_give_back(t, &t->scratch[k]);
@@ -166,7 +167,7 @@ mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops)
     return MPS_OK;
 }
 
-/* ---- a step begins and ends ---- */
+/* ---- start and end of a step ---- */
 
 static size_t number_of(const mps__twins *t, int32_t channel)
 {
@@ -174,7 +175,7 @@ static size_t number_of(const mps__twins *t, int32_t channel)
                                                                     : sizeof(double);
 }
 
-/* Room for the values of a channel, which are on the host. */
+/* Allocate the device array of a channel; its values are on the host. */
 static mps_status open_twin(mps__twins *t, int32_t channel)
 {
     mps__twin *twin = mps__twin_of(t, channel);
@@ -186,7 +187,7 @@ static mps_status open_twin(mps__twins *t, int32_t channel)
     return MPS_OK;
 }
 
-/* The same of all fields, also of those that no call declares. */
+/* Allocate the device arrays of all fields, including fields that no call declares. */
 static mps_status open_fields(mps__twins *t)
 {
     for (int32_t k = 0; k < t->particles->fields; k++) {
@@ -257,7 +258,7 @@ mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t co
 {
     mps__twin *twin = &t->block[block];
     if (!t->open || !host || count == 0) return MPS_OK;
-    /* lists grow a little from step to step */
+    /* lists grow slightly from step to step */
     const size_t bytes = (size_t)count * number;
     if (bytes > twin->room) MPS__TRY(mps__twin_fit(t, twin, bytes + bytes / 8, number));
     MPS__TRY(mps__twin_fit(t, twin, bytes, number));
@@ -276,7 +277,7 @@ mps_status mps__twins_close(mps__twins *t)
     t->last = t->device.info;
     t->open = t->step = false;
     const mps_status status = mps__device_status(&t->device);
-    t->device.failed = false; /* it may have been this once */
+    t->device.failed = false; /* the next step may succeed */
     return status;
 }
 
@@ -296,7 +297,7 @@ int32_t mps__twins_go(mps__twins *t, int32_t place)
     return before;
 }
 
-/* The field or block that an array of the host belongs to; NULL: it is none. */
+/* Mirror of the field or block that contains a host array, or NULL. */
 static mps__twin *find(mps__twins *t, const void *array)
 {
     const char *a = array;
@@ -368,7 +369,7 @@ void mps__twins_view(mps__twins *t, mps_view *v)
     see_flux(t, &v->flux);
 }
 
-/* Constants from number `first` on; copied where they have changed. */
+/* Constants from number `first` on; copied if they have changed. */
 static const double *constants(mps__twins *t, int32_t first, int32_t count, const double *values)
 {
     double *there = (double *)t->constants.data + first;

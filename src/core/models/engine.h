@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where fields, channels and lists of neighbours are valid: on the host, or in the memory of a
- * device, which loops of calls may run on. Only these functions know, and copy them. Other arrays
- * are copied where they are used: the pressure equation (ppe_device.c, solvers_device.c), levels,
- * halos (ghosts_there.c), results of reductions (later.c, reaction.c), bodies, voids, grids of
- * auxgrid. Without a device all is on the host. */
+/* Fields, channels and neighbour lists are mirrored in host and device memory. These functions
+ * alone track which copy is valid and transfer it. Other arrays are transferred where they are
+ * used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
+ * (ghosts_there.c), results of reductions (later.c, reaction.c), rigid bodies, voids, grids of
+ * auxgrid. Without a device everything is on the host. */
 #ifndef MPS_CORE_ENGINE_H
 #define MPS_CORE_ENGINE_H
 
@@ -14,7 +14,8 @@
 
 enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES };
 
-/* Arrays of a step that are neither channels nor fields: lists of neighbours, what thin plates hide, wetted areas that have turned. */
+/* Arrays of a step that are neither channels nor fields: neighbour lists, pairs hidden by thin
+ * plates, rotated wetted areas. */
 enum {
     MPS__ROWS_BEGIN,
     MPS__ROWS_MIDDLE,
@@ -24,8 +25,8 @@ enum {
     MPS__IDLE_ROWS,
     MPS__SEER_SLOTS,
     MPS__RIM_ROWS,
-    MPS__SEARCHED, /* places of the particles then */
-    MPS__LASTING,  /* those before it stay until the next search; the others live for a step */
+    MPS__SEARCHED, /* positions of the particles at the last search */
+    MPS__LASTING,  /* blocks before it persist until the next search, others for a step */
     MPS__NEAR_BEGIN = MPS__LASTING,
     MPS__NEAR_COLUMNS,
     MPS__NEAR_WEIGHTS,
@@ -35,141 +36,156 @@ enum {
     MPS__BLOCKS
 };
 
-/* An array at two places. */
+/* An array mirrored in host and device memory. */
 typedef struct mps__twin {
-    int64_t field;           /* mps__field.serial, of fields */
-    void *host;              /* NULL: that of a channel, which may move */
-    void *data;              /* of the device */
-    size_t room;             /* its bytes */
-    size_t bytes;            /* of the values; 0: not in this step */
+    int64_t field;           /* of fields: mps__field.serial */
+    void *host;              /* NULL: the array of a channel, which may move */
+    void *data;              /* device array */
+    size_t room;             /* its capacity in bytes */
+    size_t bytes;            /* bytes of the values; 0: unused in this step */
     size_t number;           /* bytes of a number */
-    bool old[MPS__PLACES];   /* the other place has newer values */
-    mps__device_block spare; /* of fields: values of before the step, or of another order */
+    bool old[MPS__PLACES];   /* stale: the other memory space has newer values */
+    mps__device_block spare; /* of fields: values before the step, or in another order */
 } mps__twin;
 
 typedef struct mps__twins {
     mps__device device;
-    mps_device_info last; /* what the device did in the last step */
-    bool step;            /* a step has begun, */
-    bool open;            /* and loops may run on the device */
-    int64_t listed;       /* the search whose lists have twins; -1: none */
-    bool torn;            /* the host's lists are not those of the last search, or half of them */
-    int64_t changes; /* those of the particles when a step ended; fields have their twins since */
-    char gone
-        [MPS__ERROR_SIZE]; /* not empty: why there is no state any more, as it was at the device alone */
-    int32_t place;         /* of loops now */
-    mps_parallel *parallel, host_parallel; /* of the handle; what it is on the host */
+    mps_device_info last; /* device counters of the last step */
+    bool step;            /* a step is in progress */
+    bool open;            /* loops may run on the device */
+    int64_t listed;       /* search whose lists are mirrored; -1: none */
+    bool torn;            /* the host's lists are incomplete or not of the last search */
+    int64_t changes;      /* mps__particles.changes for which field mirrors are valid */
+    /* not empty: the state was only on the device and is lost; the error text */
+    char gone[MPS__ERROR_SIZE];
+    int32_t place;                         /* memory space where loops run now */
+    mps_parallel *parallel, host_parallel; /* of the handle; its host value */
     mps__channels *channels;
     mps__particles *particles;
-    mps__twin list[MPS__CHANNELS + MPS__FIELDS_MAX]; /* of channels, of fields */
+    mps__twin list[MPS__CHANNELS + MPS__FIELDS_MAX]; /* of channels, then of fields */
     mps__twin block[MPS__BLOCKS];
     mps__twin scratch[MPS__SCRATCH]; /* of verbs */
     mps__twin order;                 /* of a permutation */
-    mps__twin results;               /* sums and maxima that the host has not seen yet */
-    mps__twin constants;             /* settings of models, viscosities, tensions, */
-    double *constant;                /* as they were copied last */
-    int64_t told;                    /* mps__models.changes when the log was told; -1: never */
-    int64_t told_solution;           /* the same of the pressure equation */
+    mps__twin results;               /* sums and maxima not yet copied to the host */
+    mps__twin constants;             /* settings of models, viscosities, surface tensions */
+    double *constant;                /* their values at the last copy */
+    int64_t told;                    /* mps__models.changes at the last log message; -1: never */
+    /* the same counter for the log message about the pressure equation */
+    int64_t told_solution;
 } mps__twins;
 
 void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel);
-/* Steps run on a device from now on; NULL: on the host. Not during a step. */
+/* Run steps on a device from now on; NULL: on the host. Not allowed during a step. */
 mps_status mps__twins_attach(mps__twins *t, const mps_device_ops *ops);
-/* Everything is on the host again, and nothing is held. */
+/* Release all device memory; all data is on the host. */
 void mps__twins_free(mps__twins *t);
-/* A step begins, and its counts. */
+/* Begin a step and reset its counters. */
 void mps__twins_begin(mps__twins *t);
-/* Loops run on the device until mps__twins_leave(), before there are calls: they see fields and the lists of the last search. MPS_E_NOMEM */
+/* Run loops on the device until mps__twins_leave(), before the calls of a step: fields and the
+ * lists of the last search are available. MPS_E_NOMEM */
 mps_status mps__twins_enter(mps__twins *t);
 /* MPS_E_PLUGIN: a loop has failed. */
 mps_status mps__twins_leave(mps__twins *t);
-/* Its calls begin: room for all fields and for what its calls use. Fields that nothing has changed since the step before are on the device. MPS_E_NOMEM,
- * MPS_E_PLUGIN */
+/* Begin the calls of a step: allocate all fields and the channels that the calls use. Fields
+ * unchanged since the previous step are already on the device. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_open(mps__twins *t, const mps__plan *p);
-/* The array of a block in this step; `values`: it has some, on the host. Without a step on a device nothing is done. */
+/* Register the array of a block for this step; `values`: the host array is initialised. No effect
+ * without a step on a device. */
 mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t count, size_t number,
                             bool values);
-/* The device of the step in progress; NULL: there is none. */
+/* Device of the step in progress, or NULL. */
 static inline mps__device *mps__twins_device(mps__twins *t)
 {
     return t->open ? &t->device : NULL;
 }
-/* It is over, wherever it has ended. Fields and the lists of a search stay where they are. MPS_E_PLUGIN: the device has failed in it. */
+/* End the step, also after a failure. Fields and neighbour lists stay in their memory space.
+ * MPS_E_PLUGIN: the device failed during the step. */
 mps_status mps__twins_close(mps__twins *t);
 
 /* ---- fields and lists between steps: engine_fields.c ---- */
 
-/* Whether the device of a step has all fields, or is going to get those that the host has: loops of a step that begins may run there. */
+/* Whether the device of the current step has all fields, or will get them from the host: loops may
+ * run on it. */
 bool mps__twins_there(const mps__twins *t);
-/* All fields are on the host, or one of them; the candidates of the last search, in the rows of any step since; the places of that search. They come now if they are newer at the device. MPS_E_PLUGIN: they do
- * not; what the host has must not be read. Outside of a step they may be asked for again. */
+/* Copy stale data to the host: all fields; one field; the candidates of the last search, in the
+ * particle order of any later step; the positions of that search. MPS_E_PLUGIN: the copy failed,
+ * the host data is invalid. Outside of a step the call may be repeated. */
 mps_status mps__twins_fetch(mps__twins *t);
 mps_status mps__twins_fetch_field(mps__twins *t, const void *array);
 mps_status mps__twins_fetch_lists(mps__twins *t);
 mps_status mps__twins_fetch_searched(mps__twins *t);
-/* The host has changed a field that it had. */
+/* The host changed a field that was valid on the host. */
 void mps__twins_changed(mps__twins *t, const void *array);
-/* The host has changed this field alone; `changes`: those of the particles before. */
+/* The host changed only this field; `changes`: mps__particles.changes before. */
 void mps__twins_changed_alone(mps__twins *t, const void *array, int64_t changes);
-/* All fields have other values on the host: those that the device has, or has lost, are not wanted any more. */
+/* All fields have new values on the host: discard the device values, also lost ones. */
 void mps__twins_forget(mps__twins *t);
-/* MPS_E_PLUGIN: the state was lost with a device. */
+/* MPS_E_PLUGIN: a device failure lost the state. */
 mps_status mps__twins_alive(const mps__twins *t);
-/* Keep a field at the device for mps__twins_restore(), where the device has it alone; else `kept` is false. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* Save a field on the device for mps__twins_restore() if only the device has it; else set `kept` to
+ * false. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_keep(mps__twins *t, int32_t field, bool *kept);
-/* After a failed step: the field is as it was kept; if it was not, as the host has it now. */
+/* After a failed step: restore the saved field; without a saved copy the host values are valid. */
 void mps__twins_restore(mps__twins *t, int32_t field, bool kept);
-/* All are. MPS_E_PLUGIN: not those at the device, so there is no state any more; `time`: that of the state. */
+/* All fields are restored. MPS_E_PLUGIN: the restore on the device failed and the state is lost;
+ * `time`: time of the state. */
 mps_status mps__twins_restored(mps__twins *t, double time);
-/* Particles get an order, [n]; `there`: NULL, or the order at the device. What it has of the fields is made ready for it, and nothing has changed
- * yet. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* Permute the device fields by `order` [n] into spare buffers; `there`: NULL, or the order on the
+ * device. The fields themselves do not change yet. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t *there);
-/* The particles of the host were put into it; `changes`: those of the particles before. */
+/* The host particles were permuted: use the spare buffers; `changes`: mps__particles.changes
+ * before. */
 void mps__twins_permuted(mps__twins *t, int64_t changes);
-/* Fields that the host has no values of, [fields]. */
+/* Which fields are stale on the host, [fields]. */
 void mps__twins_old(mps__twins *t, bool *old);
-/* Twins of the lists are those of no search any more. */
+/* Invalidate the mirrors of the lists. */
 void mps__twins_rows_drop(mps__twins *t);
-/* The same because the device has failed: the host may lack candidates then. */
+/* Invalidate them after a device failure: the host may lack candidates then. */
 void mps__twins_rows_lose(mps__twins *t);
 
 /* ---- where loops run ---- */
 
-/* Loops run at a place from now on; on the host unless a step is in progress. @return where they ran before */
+/* Set the memory space where loops run; always the host outside of a step. @return the previous
+ * one */
 int32_t mps__twins_go(mps__twins *t, int32_t place);
-/* Address of an array of a field or block for loops at the present place, with its newest values; others as they are. */
+/* Address of a field or block array for loops in the current memory space, with its newest values;
+ * other arrays are returned unchanged. */
 void *mps__twins_seen(mps__twins *t, const void *array);
-/* The same for loops that write it. `all`: they write all that is read afterwards. */
+/* Address of an array that loops write. `all`: they write every value that is read afterwards. */
 void *mps__twins_given(mps__twins *t, void *array, bool all);
-/* Arrays of a view, likewise; with those of constants where loops see it. */
+/* Set the arrays of a view to the current memory space; the second function also those of
+ * constants. */
 void mps__twins_view(mps__twins *t, mps_view *v);
 void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
-/* An mps__results at the device. */
+/* An mps__results on the device. */
 static inline void *mps__twins_results(const mps__twins *t)
 {
     return t->results.data;
 }
-/* Block of scratch for a verb at the device, zeroed. NULL: no memory. */
+/* Zeroed block of device scratch for a verb. NULL: out of memory. */
 void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes);
-/* The same not zeroed, for what lives until the next verb. */
+/* Block of device scratch that persists until the next verb, not initialised. */
 void *mps__twins_room(mps__twins *t, int32_t block, size_t bytes);
 
 /* ---- values ---- */
 
-/* Channels as mps__channels_array() counts them; those that are missing or scalars are on the host.
- * Make the values at a place the newest ones. */
+/* Channel indices as in mps__channels_array(); missing channels and scalars are on the host. Make
+ * the values in a memory space valid. */
 void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place);
-/* Exact rows of the last search on the host, in a step; without the near rows that are made from them. */
+/* Copy the exact rows of the last search to the host, in a step; the near rows made from them are
+ * not copied. */
 void mps__twins_rows_ready(mps__twins *t);
-/* The same of all fields on the host, for what looks at the particles outside of calls; of the lists that calls wrote. */
+/* Copy to the host all fields, for code that reads particles outside of calls; the lists that calls
+ * wrote. */
 void mps__twins_fields_ready(mps__twins *t);
 void mps__twins_lists_ready(mps__twins *t);
-/* The values at a place have changed. */
+/* Values in a memory space changed: invalidate the other copy. */
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place);
-/* What ghosts get of a channel, or of a field: the array at the place that has its newest values, where theirs are about to change. */
+/* Array for the halo exchange of a channel or field: in the memory space with its newest values.
+ * Ghost values are about to change. */
 mps__shared mps__twins_shared(mps__twins *t, int32_t channel);
 mps__shared mps__twins_shared_field(mps__twins *t, int32_t field);
-/* The array at a place. */
+/* Array in a memory space. */
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields and lists of the particles at two places, in a step and between two: there they stay at the device until the host asks for them. */
+/* Mirrored fields and lists of the particles, during a step and between steps: they stay on the
+ * device until the host requests them. */
 #include "engine_twin.h"
 #include <stdio.h>
 
@@ -10,7 +11,8 @@ bool mps__twins_there(const mps__twins *t)
 
 /* ---- to the host ---- */
 
-/* What was copied outside of a step counts for the step before. Copies that failed may be asked for again. */
+/* Add copies outside of a step to the counters of the previous step. Failed copies may be
+ * repeated. */
 static mps_status came(mps__twins *t, const mps_device_info *before)
 {
     const mps_device_info *now = &t->device.info;
@@ -81,7 +83,8 @@ static void blocks_ready(mps__twins *t, int32_t end)
     t->torn = t->device.failed;
 }
 
-/* Rows that changed at the device since they came are another parting of candidates that the host has. */
+/* Rows that changed on the device since their last copy are another partition of candidates that
+ * the host already has. */
 static bool lacks_candidates(const mps__twins *t)
 {
     const mps__twin *rim = &t->block[MPS__RIM_ROWS];
@@ -128,7 +131,7 @@ void mps__twins_rows_lose(mps__twins *t)
     const bool torn = lacks_candidates(t);
     mps__twins_rows_drop(t);
     t->torn = torn;
-    t->block[MPS__SEARCHED] = searched; /* its places are asked for until they have come */
+    t->block[MPS__SEARCHED] = searched; /* positions stay requested until they are copied */
 }
 
 /* ---- a failed step ---- */
@@ -154,7 +157,7 @@ void mps__twins_restore(mps__twins *t, int32_t field, bool kept)
 
 mps_status mps__twins_restored(mps__twins *t, double time)
 {
-    mps__device_wait(&t->device); /* or a device tells later that a copy has failed */
+    mps__device_wait(&t->device); /* some devices report a failed copy only here */
     if (!t->device.failed) return MPS_OK;
     t->device.failed = false;
     snprintf(t->gone, sizeof t->gone,
@@ -164,7 +167,7 @@ mps_status mps__twins_restored(mps__twins *t, double time)
     return mps__twins_alive(t);
 }
 
-/* ---- another order ---- */
+/* ---- permutation ---- */
 
 static bool moves(const mps__twin *twin)
 {
@@ -217,7 +220,7 @@ void mps__twins_permuted(mps__twins *t, int64_t changes)
         twin->data = before.spare.data;
         twin->room = before.spare.bytes;
         twin->spare = (mps__device_block){before.data, before.room};
-        /* places of walls are others now */
+        /* indices of walls have changed */
         if (s->changes != changes && s->field[k].data == (void **)&s->wall_of)
             mps__twins_changed(t, s->wall_of);
     }
@@ -246,7 +249,7 @@ void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
     if (twin) mps__twin_change(t, twin, host, place, true);
 }
 
-/* The device, where both places have the newest values. */
+/* Use the device if both copies are valid. */
 static mps__shared shared_of(mps__twins *t, mps__twin *twin, void *host, size_t bytes)
 {
     const bool there = t->open && twin && twin->bytes > 0 && !twin->old[MPS__ON_DEVICE];

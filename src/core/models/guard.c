@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Write protection by comparison, and NaN where there is no value. */
+/* Write protection by comparison; NaN in dead memory. */
 #include "guard.h"
 #include <math.h>
 #include <string.h>
 
-/* Whether the call may write some bytes of an array of `element` bytes a particle. */
+/* Whether the call may write to an array of `element` bytes per particle. */
 static bool may_write(const mps__host *h, const mps__call *call, const char *array, size_t element)
 {
     bool may = call->pass && call->pass->undeclared;
@@ -26,13 +26,13 @@ static void protect(mps__guard *g, const char *name, const void *array, size_t e
     g->element += element;
 }
 
-/* Whether a device has newer values: those on the host may be brought up to date during the call. */
+/* Whether the host copy is stale: the call may update it. */
 static bool is_old(const mps__host *h, int32_t twin)
 {
     return h->twins.open && h->twins.list[twin].old[MPS__ON_HOST];
 }
 
-/* The same of a channel, or of another one that lives in its memory. */
+/* Whether the host copy of a channel, or of another one that overlaps it in memory, is stale. */
 static bool is_old_memory(const mps__host *h, int32_t channel)
 {
     const mps__channel *own = &h->channels->list[channel];
@@ -48,7 +48,7 @@ static bool is_old_memory(const mps__host *h, int32_t channel)
     return old;
 }
 
-/* Channels of models come first: memory that they share has their names. */
+/* List channels of models first, so that shared memory is reported under their names. */
 static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call)
 {
     for (int32_t m = 0; m < h->channels->count; m++) {

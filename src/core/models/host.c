@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of verbs: what they get, and what is checked after them. */
+/* Calls of verbs: their arguments, and checks of their results. */
 #include "guard.h"
 #include "loop.h"
 #include <math.h>
@@ -15,7 +15,7 @@ static mps_status verb_failed(mps__host *h, const mps__call *call, double t)
     return mps__fail(h->context, status, "model '%s' at t = %.9g s: %.300s", call->name, t, error);
 }
 
-/* The text of a failure at particle i: what the model left there, and what is allowed. */
+/* Error text of an invalid value at particle i: the value, and what is allowed. */
 static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *call, int64_t i,
                        const char *what, const char *allowed)
 {
@@ -27,7 +27,7 @@ static mps_status left(const mps__host *h, const mps_stage *s, const mps__call *
         allowed);
 }
 
-/* What is checked of what verbs left. */
+/* Fields of the checks. */
 typedef struct check_fields {
     const int32_t *region;
     const double *nd;
@@ -39,7 +39,7 @@ MPS_ROW bool is_no_region(const check_fields *f, int64_t i)
 }
 MPS__FIRST(bad_regions, is_no_region, check_fields)
 
-/* Regions decide which rows later hooks work on. */
+/* Later hooks select particles by region. */
 static mps_status check_regions(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     char what[32], allowed[32];
@@ -65,7 +65,7 @@ MPS_ROW bool is_not_finite(const check_fields *f, int64_t i)
 }
 MPS__FIRST(bad_densities, is_not_finite, check_fields)
 
-/* No comparison with a number density that is not finite is true: the free surface would be lost
+/* Every comparison with a non-finite number density is false: the free surface would be lost
  * without an error. */
 static mps_status check_number_density(const mps__host *h, const mps_stage *s,
                                        const mps__call *call)
@@ -94,7 +94,7 @@ static double number_of(const mps__host *h, int32_t channel)
                                             : *(const double *)k->array;
 }
 
-/* The step divides by the gain, and a NaN here would be that of all pressures. */
+/* The step divides by the gain; a NaN here would spread to all pressures. */
 static mps_status check_equation(const mps__host *h, const mps_stage *s, const mps__call *call)
 {
     const double radius = number_of(h, MPS__EQUATION_RADIUS),
@@ -126,7 +126,7 @@ static mps_status check_after(const mps__host *h, const mps_stage *s, const mps_
 
 /* ---- ghosts ---- */
 
-/* Ghosts get the values of those of the channels whose owners have newer ones. */
+/* Halo exchange of the listed channels whose ghosts are stale. */
 static mps_status share(mps__host *h, const int32_t *channel, int32_t count)
 {
     mps__shared shared[MPS__USES + MPS__FLUX_CHANNELS];
@@ -148,7 +148,8 @@ void mps__host_all_alike(mps__host *h)
     for (int32_t k = 0; k < h->particles->fields; k++) h->particles->field[k].stale = false;
 }
 
-/* Channels that the call reads at neighbours; from MPS_FORCE on also those of the fluxes of pairs, which need no use. */
+/* Halo exchange of channels that the call reads at neighbours; from MPS_FORCE on also of the pair
+ * flux channels, which need no declared use. */
 static mps_status share_before(mps__host *h, const mps__call *call)
 {
     int32_t channel[MPS__USES + MPS__FLUX_CHANNELS], count = 0;
@@ -172,8 +173,9 @@ static bool is_array(const mps__host *h, int32_t channel)
            (channel >= 0 && !mps__channel_is_scalar(&h->channels->list[channel]));
 }
 
-/* Which values ghosts have after a call, and the other place. Loops go over owned rows; those of a pass that is everywhere give ghosts values as
- * new as those that it read, and as those that it changed. */
+/* Mark ghosts and the other memory space as stale after a call. Loops run over owned particles. A
+ * pass with `everywhere` leaves ghosts valid if its inputs and the values that it modified were
+ * valid there. */
 static void note_writes(mps__host *h, const mps__call *call, int32_t place)
 {
     bool old = !(call->pass && call->pass->everywhere);
@@ -190,10 +192,11 @@ static void note_writes(mps__host *h, const mps__call *call, int32_t place)
 
 /* ---- first values ---- */
 
-/* A channel of models: `width` numbers a row, of which each `diagonal`th is `initial` and the others are 0. */
+/* A channel of a model: `width` numbers per row; each `diagonal`th is `initial`, the others are
+ * 0. */
 typedef struct beginning {
     double initial;
-    double *reals; /* one of both is NULL */
+    double *reals; /* one of the two is NULL */
     int32_t *integers;
     int32_t width, diagonal;
 } beginning;
@@ -227,7 +230,7 @@ static void begin_channel(mps__host *h, int32_t channel, int32_t place)
     mps__twins_written(&h->twins, channel, place);
 }
 
-/* Channels of models get their first values before the first call that uses them. */
+/* Initialise the channels of models before the first call that uses them. */
 static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 {
     for (int32_t k = MPS__OWN_CHANNELS; call->begins >> k; k++) {
@@ -239,7 +242,8 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 
 /* ---- a device ---- */
 
-/* Where a call runs. Verbs of plug-ins and passes that read the world run on the host. */
+/* Memory space of a call. Verbs of plug-ins and passes that access the simulation run on the
+ * host. */
 static int32_t place_of(const mps__host *h, const mps__call *call)
 {
     if (!h->twins.open) return MPS__ON_HOST;
@@ -247,7 +251,8 @@ static int32_t place_of(const mps__host *h, const mps__call *call)
     return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
 }
 
-/* What a call reads comes to where it runs, and so do rows that it leaves as they are. Fluxes of pairs need no use. */
+/* Copy what a call reads to its memory space, also arrays that it writes only in part. Pair flux
+ * channels need no declared use. */
 static void make_ready(mps__host *h, const mps__call *call, int32_t place)
 {
     int32_t flux[MPS__FLUX_CHANNELS];
@@ -349,7 +354,7 @@ static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *c
     }
     mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
     mps__twins_go(&h->twins, MPS__ON_HOST);
-    /* what a verb makes of fields that have not come is no reason */
+    /* a failed copy explains the failure of the verb */
     if (place == MPS__ON_DEVICE && (status >= 0 || (h->came && h->twins.device.failed)))
         status = mps__device_status(&h->twins.device);
     h->everywhere = false;
@@ -364,7 +369,8 @@ static mps_status run_call(mps__host *h, mps_stage *s, mps_view *v, mps__call *c
 
 /* ---- costs ---- */
 
-/* Bytes that the loops of a call move at least: each array that it declares once for reading, once for writing. */
+/* Lower bound of the bytes moved by the loops of a call: each declared array once for reading, once
+ * for writing. */
 static double bytes_of(const mps__host *h, const mps__call *call)
 {
     double bytes = 0;
@@ -382,7 +388,7 @@ static double bytes_of(const mps__host *h, const mps__call *call)
 void mps__host_begin(mps__host *h)
 {
     memset(h->seconds, 0, sizeof h->seconds);
-    h->step = NULL; /* that of the step before is gone */
+    h->step = NULL; /* the previous step is over */
     h->laters.count = h->laters.sums = h->laters.maxima = 0;
     memset(h->wrong, 0, sizeof h->wrong);
     h->densities.agreed = false;
@@ -456,7 +462,7 @@ mps_status mps__host_run(mps__host *h, mps_stage *s, mps_view *v, int32_t hook)
     return status;
 }
 
-/* Names of the calls that run on the host: once after models or the device changed. */
+/* Log the calls that run on the host: once after each change of models or device. */
 void mps__host_tell_places(mps__host *h)
 {
     char text[MPS__ERROR_SIZE] = "";

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Values that wait at a device. */
+/* Deferred reductions on a device. */
 #include "host.h"
 #include "loop.h"
 #include <string.h>
@@ -9,7 +9,7 @@ static mps__results *results_of(const mps__host *h)
     return h->twins.open ? mps__twins_results(&h->twins) : NULL;
 }
 
-/* Note what is to come; sums or maxima, or none. */
+/* Add a deferred reduction; sums or maxima, or neither. */
 static mps__later *add(mps__host *h, int32_t sums, int32_t maxima, mps__then then)
 {
     mps__laters *l = &h->laters;
@@ -55,7 +55,7 @@ MPS_ROW void round_row(const int dim, const rounding *f, int64_t i)
 }
 MPS__LOOP_ANY(round_rows, round_row, rounding)
 
-/* All values in one copy, and `bytes` of an array of the device behind them. */
+/* Copy all values to the host at once, followed by `bytes` of a device array. */
 static void fetch_rounded(mps__host *h, const void *array, size_t bytes, double *value)
 {
     const mps__laters *l = &h->laters;
@@ -68,14 +68,15 @@ static void fetch_rounded(mps__host *h, const void *array, size_t bytes, double 
     mps__device_download(d, value, there->value, values * sizeof *value + bytes);
 }
 
-/* The same of all ranks: sums are rounded when they are joined. */
+/* Copy and reduce over all ranks: sums are rounded after the reduction. */
 static void fetch_joined(mps__host *h, const void *array, size_t bytes, double *value)
 {
     const mps__laters *l = &h->laters;
     mps__device *d = &h->twins.device;
     mps__results *there = results_of(h);
     mps_exact sum[MPS__LATER_VALUES] = {{{0}, 0, 0}};
-    memset(value, 0, (size_t)l->maxima * sizeof *value + bytes); /* where the device fails */
+    /* defined values if the device fails */
+    memset(value, 0, (size_t)l->maxima * sizeof *value + bytes);
     if (bytes > 0) mps__device_copy(d, there->value + l->maxima, array, bytes);
     mps__device_download(d, sum, there->sum, (size_t)l->sums * sizeof *sum);
     mps__device_download(d, value, there->value, (size_t)l->maxima * sizeof *value + bytes);

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lives of channels in a step, from the uses of its calls, and the memory that follows from them. */
+/* Liveness analysis of channels in a step, from the uses of its calls, and the memory plan. */
 #include "plan.h"
 #include <string.h>
 
 enum { WORDS = (MPS__CALLS + 63) / 64 };
 
-/* Calls during which a channel holds values that are read later: a bit each. */
+/* Live range of a channel, one bit per call: set while it holds values that are read later. */
 typedef struct life {
     uint64_t call[WORDS];
 } life;
@@ -22,7 +22,8 @@ static bool meet(const life *a, const life *b)
     return together;
 }
 
-/* What a call does to a channel: the access that it declares. Fluxes of pairs are there from MPS_FORCE on without a use. */
+/* Access of a call to a channel, as declared. From MPS_FORCE on pair flux channels are read without
+ * a declared use. */
 static int32_t access_of(const mps__call *call, int32_t channel, bool in_flux)
 {
     int32_t access = in_flux && call->hook >= MPS_FORCE ? MPS_USE_READ : 0;
@@ -31,7 +32,8 @@ static int32_t access_of(const mps__call *call, int32_t channel, bool in_flux)
     return access;
 }
 
-/* The life of a channel of the arena. A pass with MPS__USE_BEGIN ends the one before; that of a model's channel begins with its first use. */
+/* Live range of a channel of the arena. A pass with MPS__USE_BEGIN ends the previous range; the
+ * range of a model's channel begins with its first use. */
 static life life_of(mps__plan *p, int32_t channel, bool in_flux)
 {
     life l = {{0}};
@@ -52,7 +54,8 @@ static life life_of(mps__plan *p, int32_t channel, bool in_flux)
     return l;
 }
 
-/* Whether bytes from..from+size-1 of a particle are free for the channel: none that has its place there lives at the same time. */
+/* Whether bytes from..from+size-1 of a particle are free for the channel: no channel placed there
+ * is live at the same time. */
 static bool is_free(const mps__channels *c, const life *lives, int32_t channel, int64_t from)
 {
     const int64_t end = from + (int64_t)mps__channel_element(&c->list[channel]);
@@ -64,7 +67,7 @@ static bool is_free(const mps__channels *c, const life *lives, int32_t channel, 
     return true;
 }
 
-/* The lowest place that is free: at the begin, or behind another channel. */
+/* Lowest free offset: 0, or the end of another channel. */
 static int64_t find_place(const mps__channels *c, const life *lives, int32_t channel)
 {
     int64_t found = is_free(c, lives, channel, 0) ? 0 : INT64_MAX;
@@ -83,8 +86,8 @@ static int32_t calls_of(const life *l)
     return calls;
 }
 
-/* Of the channels without a place the one that lives longest, of these the largest; numbers of four bytes last, so that all others are aligned.
- * -1: all have one. */
+/* Next channel to place: the longest live range first, then the largest; four-byte numbers last, so
+ * that all others are aligned. -1: all are placed. */
 static int32_t find_next(const mps__channels *c, const life *lives)
 {
     int64_t most = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of models that belong to no particle. A failed step brings back those that its verbs asked for. */
+/* Numbers of models that belong to no particle. A failed step restores those that its verbs
+ * accessed. */
 #include "host.h"
 #include <math.h>
 #include <string.h>
@@ -31,7 +32,7 @@ void mps__models_restore(mps__models *m)
     for (int32_t k = 0; k < m->active; k++) {
         mps__numbers *s = &m->on[k].state;
         if (!s->touched) continue;
-        s->count = s->kept_count; /* there was room for them */
+        s->count = s->kept_count; /* the capacity is sufficient */
         if (s->count > 0) memcpy(s->value, s->kept, (size_t)s->count * sizeof *s->value);
     }
 }
@@ -47,7 +48,7 @@ const mps__model *mps__models_not_finite(const mps__models *m, int64_t *place)
     return NULL;
 }
 
-/* Before the first change of a step. */
+/* Save the numbers before the first change in a step. */
 static mps_status keep(mps__context *c, mps__numbers *s)
 {
     if (s->touched) return MPS_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Registry of models, the active list and its settings. */
+/* Registry of models, the active models and their settings. */
 #include "models.h"
 #include "built_in.h"
 #include <math.h>
@@ -25,7 +25,7 @@ static int32_t find_active(const mps__models *m, const char *slot)
     return -1;
 }
 
-/* As find_active(), but a full name must be the active model's own. */
+/* Like find_active(), but a full name must be that of the active model. */
 static int32_t find_named(const mps__models *m, const char *slot)
 {
     const int32_t k = find_active(m, slot);
@@ -86,7 +86,7 @@ static mps_status check_verbs(mps__context *c, const mps_model_ops *ops)
     return MPS_OK;
 }
 
-/* Tables that a model describes itself with. */
+/* Check the tables that describe a model. */
 static mps_status check_tables(mps__context *c, const mps_model_ops *ops)
 {
     const struct {
@@ -161,7 +161,7 @@ bool mps__models_foreign(const mps__models *m, const mps__model *model)
     return model->ops >= &m->registry[m->built_in];
 }
 
-/* Whether a verb of an active model has an access. */
+/* Whether a verb of an active model declares an access. */
 static bool any_use(const mps__models *m, int32_t access)
 {
     bool any = false;
@@ -223,7 +223,7 @@ void mps__models_free(mps__models *m)
     while (m->active > 0) drop(m, m->active - 1);
 }
 
-/* Names of all slots, each once. */
+/* Names of all slots, without duplicates. */
 static int32_t list_slots(const mps__models *m, char slot[][MPS__NAME_SIZE], const char *names[])
 {
     int32_t count = 0;
@@ -239,7 +239,8 @@ static int32_t list_slots(const mps__models *m, char slot[][MPS__NAME_SIZE], con
     return count;
 }
 
-/* The text names the models of a slot that exists, else the nearest name, else all slots. */
+/* Set an error text that names the existing models of the slot, else the nearest name, else all
+ * slots. */
 static mps_status unknown_model(mps__models *m, const char *name)
 {
     const char *names[MPS__MODELS_KNOWN];
@@ -270,7 +271,8 @@ static mps_status check_parts(const mps__models *m, const mps_model_ops *ops)
     return MPS_OK;
 }
 
-/* A model that is ready to be switched on: its state is made, its channels are there. `leaving`: NULL, or the one it replaces. */
+/* Prepare a model for activation: create its state, add its channels. `leaving`: NULL, or the model
+ * that it replaces. */
 static mps_status make(mps__models *m, int32_t which, const mps_model_ops *leaving,
                        mps__model *fresh)
 {
@@ -310,7 +312,8 @@ mps_status mps__models_use(mps__models *m, const char *name)
     return MPS_OK;
 }
 
-/* The text names the model of a slot whose variant is another one, else the nearest slot, else all active slots. */
+/* Set an error text that names the active model of the slot, else the nearest slot, else all active
+ * slots. */
 static mps_status not_active(mps__models *m, const char *slot)
 {
     const char *names[MPS__MODELS_ACTIVE];

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Order of verbs: by hook, then by what they do to the same channel, by `after` and `before`,
- * then by the list of models. */
+/* Order of verbs: by hook, then by their access to common channels, by `after` and `before`, then
+ * by the list of models. */
 #include "plan.h"
 #include <string.h>
 
-/* What a verb does to a channel, in the order in which verbs run. */
+/* Access of a verb to a channel, in the order in which verbs run. */
 enum { PRODUCES, CHANGES, READS, NOTHING };
 
 const char *mps__hook_name(int32_t hook)
@@ -41,7 +41,7 @@ static mps_status check_access(const mps__models *m, const mps__call *call, int3
                      call->name, use->channel, what, mps__hook_name(call->hook));
 }
 
-/* Fields of the user are channels too. @return the place behind those of the list, or -1 */
+/* Fields of the user are channels too. @return index after the channels of the list, or -1 */
 static int32_t find_field(const mps__models *m, const char *name)
 {
     const mps__field *f = mps__particles_field(m->particles, name);
@@ -50,7 +50,7 @@ static int32_t find_field(const mps__models *m, const char *name)
                : -1;
 }
 
-/* A field of the user may be used in all hooks; what is written before the state is kept could not be undone. */
+/* A user field may be used in all hooks; writes before the state is saved could not be undone. */
 static mps_status check_field(const mps__models *m, const mps__call *call, const mps_use *use)
 {
     if (call->hook != MPS_POPULATE || !(use->access & MPS_USE_WRITE)) return MPS_OK;
@@ -98,7 +98,7 @@ static int what_it_does(const mps__call *call, int32_t channel)
     return does;
 }
 
-/* How strongly an entry of `after` or `before` names the model of another verb. */
+/* Strength of a reference in `after` or `before` to another verb's model. */
 enum { NOT_NAMED, BY_STAR, BY_NAME };
 
 static int names(const char *slot, const mps__call *other)
@@ -113,7 +113,8 @@ static int stronger(int a, int b)
     return a > b ? a : b;
 }
 
-/* -1: a runs before b by what they say, 1: after it, 0: they say nothing. A name says more than "*". */
+/* Order by `after` and `before`: -1: a before b, 1: a after b, 0: undefined. A name is stronger
+ * than "*". */
 static int said(const mps__call *a, const mps__call *b)
 {
     const int before = stronger(names(a->verb->before, b), names(b->verb->after, a));
@@ -136,7 +137,7 @@ static bool precedes(const mps__call *a, const mps__call *b)
     return by_word < 0 || by_data;
 }
 
-/* The first of the calls from..to-1 that must run before call a, or -1. */
+/* First of the calls from..to-1 that must run before call a, or -1. */
 static int32_t first_awaited(const mps__plan *p, int32_t a, int32_t from, int32_t to)
 {
     for (int32_t b = from; b < to; b++)
@@ -144,7 +145,7 @@ static int32_t first_awaited(const mps__plan *p, int32_t a, int32_t from, int32_
     return -1;
 }
 
-/* The first of the calls from..to-1 that no other of them must precede, or -1. */
+/* First of the calls from..to-1 that no other of them must precede, or -1. */
 static int32_t first_free(const mps__plan *p, int32_t from, int32_t to)
 {
     for (int32_t a = from; a < to; a++)
@@ -152,7 +153,7 @@ static int32_t first_free(const mps__plan *p, int32_t from, int32_t to)
     return -1;
 }
 
-/* Each of the calls from..to-1 waits for another one. Going from one to the one that it waits for ends in a ring. */
+/* The calls from..to-1 all wait for each other: follow the dependencies to a cycle. */
 static mps_status ring(const mps__plan *p, const mps__models *m, int32_t from, int32_t to)
 {
     int32_t a = from;
@@ -186,7 +187,7 @@ static mps_status add_call(mps__plan *p, const mps__models *m, int32_t *count,
     return find_channels(m, &p->call[(*count)++]);
 }
 
-/* The verbs of one hook in the order of the models. */
+/* Add the verbs of one hook in the order of the models. */
 static mps_status add_verbs(mps__plan *p, const mps__models *m, int32_t hook, int32_t *count)
 {
     for (int32_t k = 0; k < m->active; k++) {
@@ -222,7 +223,7 @@ static mps_status add_passes(mps__plan *p, const mps__models *m, int32_t hook, i
     return MPS_OK;
 }
 
-/* A scalar has one verb that writes it; others may change what it wrote. */
+/* Exactly one verb writes a scalar; others may change it. */
 static mps_status check_owners(const mps__plan *p, const mps__models *m)
 {
     for (int32_t c = 0; c < m->channels->count; c++) {
@@ -272,7 +273,7 @@ void mps__plan_clear_costs(mps__plan *p)
     for (int part = 0; part < MPS__OUTSIDE; part++) p->outside[part] = (mps__cost){0};
 }
 
-/* A part stands before the calls of a hook, or behind all. */
+/* A part comes before the calls of a hook, or after all calls. */
 bool mps__plan_entry(const mps__plan *p, int32_t index, const mps__call **call, int *part)
 {
     static const int32_t before[MPS__OUTSIDE] = {MPS_LIMIT, MPS_LIMIT, MPS_LIMIT, MPS_LIMIT + 1,

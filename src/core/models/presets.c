@@ -3,7 +3,8 @@
 #include "built_in.h"
 #include <stddef.h>
 
-/* W22 (1)-(12), Z14 (9)-(17) to the letter. */
+/* W22 (1)-(12), Z14 (9)-(17), literally (W22: Wen, Zhao & Wan 2022; Z14: Zhang, Wan & Hino
+ * 2014). */
 static const mps__preset_line imps_paper[] = {{"surface.asymmetry", NULL, 0},
                                               {"surface.asymmetry", "spray", 0},
                                               {"surface.asymmetry", "walls", 1},
@@ -30,7 +31,8 @@ static const mps__preset_line imps[] = {
     {"collision.pair", NULL, 0},      {"collision.pair", "restitution", 0},
     {"shift.tangential", NULL, 0},    {NULL, NULL, 0}};
 
-/* Several phases, phase 1 a gas: the operators of imps, stable and accurate at 1000 : 1. docs/explanations/two_phases.md. */
+/* Several phases, phase 1 a gas: the operators of imps, stable and accurate at a density ratio of
+ * 1000 : 1. docs/explanations/two_phases.md. */
 static const mps__preset_line mmps[] = {
     {"surface.detached", NULL, 0},    {"wall.half", NULL, 0},
     {"density.interface", NULL, 0},   {"moments.bounded", NULL, 0},
@@ -44,8 +46,8 @@ static const mps__preset_line mmps[] = {
     {"collision.pair", NULL, 0},      {"collision.pair", "restitution", 0},
     {"shift.tangential", NULL, 0},    {NULL, NULL, 0}};
 
-/* W22 (10)-(26) literally; what the paper leaves open is a setting: the weight of a particle's own density, the distance of
- * collisions. */
+/* W22 (10)-(26) literally; settings define what the paper leaves open: the weight of a particle's
+ * own density, the collision distance. */
 static const mps__preset_line mmps_paper[] = {{"wall.extrapolate", NULL, 0},
                                               {"density.smooth", NULL, 0},
                                               {"viscosity.pair", NULL, 0},

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What verbs report of the forces that solids exert on the fluid: friction, baffles, screens. */
+/* Forces of solids on the fluid reported by verbs: friction, baffles, screens. */
 #include "reaction.h"
 #include "host.h"
 #include "loop.h"
@@ -7,18 +7,18 @@
 #include <math.h>
 #include <mps/reaction.h>
 
-/* Places of rows are in `place`: 1 + that of mps__reactions, 0 for rows that do not count. */
+/* Indices of particles are in `place`: 1 + index in mps__reactions, 0: not counted. */
 typedef struct report {
     const int32_t *kind;
     const uint8_t *ghost; /* NULL: none */
     const double *x, *rho, *acceleration;
-    int32_t *place; /* NULL: all rows are at `wanted` */
+    int32_t *place; /* NULL: all particles belong to `wanted` */
     int32_t wanted;
     double volume; /* of a particle */
     double centre[3];
 } report;
 
-/* Force and moment of a fluid row. */
+/* Force and moment of a fluid particle. */
 MPS_ROW void add_row(const int dim, const report *k, int64_t i, double *values)
 {
     double r[3] = {0};
@@ -42,7 +42,7 @@ static int32_t line_of(const mps_stage *s, const mps__host *h)
 static const char not_finite[] =
     "the acceleration that a solid gives the fluid, by mps_stage_reaction(), is not finite";
 
-/* Add the rows of one place. @return non-zero: not finite */
+/* Add the particles of one index. @return non-zero: not finite */
 static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
 {
     mps_exact sums[6] = {{{0}, 0, 0}};
@@ -60,17 +60,18 @@ static int add_place(mps_stage *s, mps__host *h, report *k, int32_t place)
     return 0;
 }
 
-/* ---- at a device ---- */
+/* ---- on a device ---- */
 
 enum { WIDTH = 6 };
 
 typedef struct joining {
-    mps_exact *sum, *line;     /* of the first place; NULL: of no line */
-    const mps_exact *reported; /* of the first place */
+    mps_exact *sum, *line;     /* of the first index; NULL: no line */
+    const mps_exact *reported; /* of the first index */
     int32_t places;
 } joining;
 
-/* Row i is number i of the sums; those behind the places are of the line, which takes all places. */
+/* Row i is component i of the sums; rows after the last index belong to the line, which sums over
+ * all indices. */
 MPS_ROW void join_row(const int dim, const joining *f, int64_t i)
 {
     const int64_t number = i % WIDTH;
@@ -83,7 +84,7 @@ MPS_ROW void join_row(const int dim, const joining *f, int64_t i)
 }
 MPS__LOOP_ANY(join_rows, join_row, joining)
 
-/* The maximum: whether any is not finite. */
+/* Maximum: 1 if a sum is not finite. */
 MPS_ROW void poison_row(const int dim, const joining *f, int64_t i, double *most)
 {
     (void)dim;
@@ -97,7 +98,7 @@ static void join_there(mps__host *h, const joining *k)
                   WIDTH * (k->places + (k->line != NULL)), k);
 }
 
-/* The first report of a step begins with no sums. */
+/* Clear the sums at the first report of a step. */
 static mps__results *begin_there(mps__host *h)
 {
     mps__results *r = mps__twins_results(&h->twins);
@@ -111,7 +112,7 @@ static void take_poison(void *wrong, const double *most)
     if (*most > 0) *(bool *)wrong = true;
 }
 
-/* Those of all places, as it is not known which occur. Nothing waits for them. */
+/* Add the sums of all indices, since it is unknown which occur. Deferred. */
 static int add_there(mps_stage *s, mps__host *h, report *k)
 {
     mps__device *d = &h->twins.device;
@@ -138,7 +139,7 @@ void mps__host_reactions_later(mps__host *h, mps__then then)
         mps__host_do_later(h, then);
         return;
     }
-    if (h->reactions.here) { /* a verb that runs on the host reported too */
+    if (h->reactions.here) { /* a verb on the host also reported */
         mps__device_upload(&h->twins.device, r->reported, h->reactions.sum, bytes);
         join_there(h, &(joining){r->reaction[0], NULL, r->reported[0], places});
     }
@@ -156,7 +157,7 @@ mps_status mps__host_check_reactions(const mps__host *h, double t)
     return MPS_OK;
 }
 
-/* The solid nearest to a fluid row, of those as near the one with the least id; -1: there is none. */
+/* Solid nearest to a fluid particle; at equal distance the one with the least id; -1: none. */
 MPS_ROW int64_t nearest_solid(const int dim, const mps_view *v, int64_t i)
 {
     const mps_stencil *t = &v->far;
@@ -190,7 +191,7 @@ MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, 
 }
 MPS_ROWS(place_rows, place_row, place_fields)
 
-/* Each row acts on the part beside it. */
+/* Each fluid particle acts on the part of its nearest solid. */
 static int add_beside(mps_stage *s, mps__host *h, report *k)
 {
     bool used[MPS__REACTIONS + 1] = {false};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Forces of solids on the fluid that verbs report, besides pressures on walls: mps_stage_reaction(). */
+/* Forces of solids on the fluid reported by verbs, besides wall pressures: mps_stage_reaction(). */
 #ifndef MPS_CORE_REACTION_H
 #define MPS_CORE_REACTION_H
 
@@ -7,7 +7,7 @@
 #include <mps/exact.h>
 #include <stdbool.h>
 
-/* Which line of the energy budget takes what a verb dissipates: by its model or, of other models, by its hook. */
+/* Energy budget line of the dissipation of a verb: by its model, else by its hook. */
 enum {
     MPS__LINE_VISCOUS,
     MPS__LINE_COLLISION,
@@ -17,15 +17,17 @@ enum {
     MPS__LINE_OF_HOOK = -1
 };
 
-/* Places in mps__reactions.sum: lines, then the tank as a whole, then parts. */
+/* Indices in mps__reactions.sum: lines, then the whole tank, then parts. */
 enum { MPS__REACTION_WHOLE = MPS__LINES, MPS__REACTIONS = MPS__LINES + 1 + MPS__PARTS_MAX };
 
-/* Of one step, as this rank knows it: force on the fluid and moment about the centre of the tank's motion, in the lab. */
+/* Of one step and this rank: force on the fluid, and moment about the motion centre of the tank, in
+ * the lab frame. */
 typedef struct mps__reactions {
-    bool any;         /* a verb reported, on all ranks */
-    bool here, there; /* on the host; on a device, which has sums too: mps__results.reaction */
+    bool any;         /* a verb reported; the same on all ranks */
+    bool here, there; /* sums on the host; on a device too: mps__results.reaction */
     mps_exact sum[MPS__REACTIONS][6];
-    /* kinetic energy beside that of the particles, by lines: at the beginning of the step, and at its end [J] */
+    /* kinetic energy besides that of the particles, by lines: at the start and at the end of the
+     * step [J] */
     double kinetic_before[MPS__LINES], kinetic[MPS__LINES];
 } mps__reactions;
 

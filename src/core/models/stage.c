@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops, sums and scratch for verbs of models: the one place where these loops are. Rows are owned particles. */
+/* Loops, sums and scratch for verbs of models; the only place with these loops. Rows are owned
+ * particles. */
 #include "host.h"
 #include "sort.h"
 #include "terms.h"
@@ -15,7 +16,7 @@ static mps__host *host_of(const mps_stage *s)
 
 /* ---- loops ---- */
 
-/* A loop or a sum over rows, as the parallel-for of the handle wants it. */
+/* A loop or a sum over rows, passed to the parallel-for of the handle. */
 typedef struct job {
     const mps__host *h;
     const mps_view *v;
@@ -23,8 +24,8 @@ typedef struct job {
     const mps_sums *sums;
     const void *fields;
     int32_t count;       /* sums or maxima */
-    bool raises;         /* maxima */
-    const uint8_t *skip; /* of a launch */
+    bool raises;         /* maxima instead of sums */
+    const uint8_t *skip; /* mask of a launch */
 } job;
 
 static void own_rows(void *argument, int64_t begin, int64_t end)
@@ -42,14 +43,14 @@ static void run_rows(void *argument, int64_t begin, int64_t end)
         mps__ghosts_rows(k->h->ghosts, own_rows, argument, begin, end);
 }
 
-/* Rows of one thread, and where it collects. */
+/* Rows of one thread, and its partial sums. */
 typedef struct part {
     const job *k;
     mps_exact *sums;
     double *maxima;
 } part;
 
-/* Zeros change no exact sum. */
+/* Adding zeros does not change an exact sum. */
 static bool is_zero(const double *values, int32_t count)
 {
     int32_t k = 0;
@@ -57,7 +58,8 @@ static bool is_zero(const double *values, int32_t count)
     return k == count;
 }
 
-/* Terms of each row on its own: a sum of several rows would depend on where ranges begin. */
+/* Add the terms of each row separately: a sum over several rows would depend on the start of
+ * ranges. */
 static void sum_rows(void *argument, int64_t begin, int64_t end)
 {
     enum { BLOCK = 32 };
@@ -102,7 +104,7 @@ static void run_maxima(void *argument, int64_t begin, int64_t end, double *value
 
 /* ---- on a device ---- */
 
-/* The rows of a launch that are not left out. */
+/* The rows of a launch that are not masked. */
 static void launch_rows(const job *k, mps_range_fn rows, void *argument, int64_t begin, int64_t end)
 {
     for (int64_t i = begin; i < end;) {
@@ -124,20 +126,22 @@ static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *
         launch_rows(k, k->raises ? raise_rows : sum_rows, &own, begin, end);
 }
 
-/* Rows that a loop leaves out: of particles of other ranks. */
+/* Mask of a loop: particles of other ranks. */
 static const uint8_t *skip_of(const job *k, mps__device *d)
 {
     return k->rows && k->h->everywhere ? NULL : mps__ghosts_seen(k->h->ghosts, d);
 }
 
-/* Source file of a loop of the library; loops of others run on the host, and those of older headers have none. */
+/* Source file of a loop of the library. Loops of plug-ins run on the host; those of older headers
+ * have none. */
 static const char *file_of(const job *k)
 {
     if (k->rows) return k->rows->struct_size >= sizeof *k->rows ? k->rows->file : "";
     return k->sums->struct_size >= sizeof *k->sums ? k->sums->file : "";
 }
 
-/* Rows, `count` sums or maxima, which go to memory there if `to` is not NULL. */
+/* Launch rows, and `count` sums or maxima, which are written to device memory if `to` is not
+ * NULL. */
 static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima, void *to)
 {
     mps_view v = *given->v;
@@ -167,7 +171,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
 
 /* ---- loops of calls ---- */
 
-/* Rows of a loop on the host: none where what it reads has not come from a device. */
+/* Rows of a loop on the host: none if its inputs could not be copied from the device. */
 static int64_t rows_here(const mps__host *h, const mps_view *v)
 {
     return h->twins.device.failed ? 0 : v->n;
@@ -247,8 +251,8 @@ void mps_stage_rows(const mps_stage *s, const mps_rows *rows, const void *fields
     mps__host_rows(host_of(s), s->view, rows, fields);
 }
 
-/* Before a loop with sums or maxima: first values. A count that there is no room for makes the verb
- * fail, whatever it returns. @return whether the loop may run */
+/* Initialise the results of a loop with sums or maxima. An invalid count makes the verb fail,
+ * whatever it returns. @return whether the loop may run */
 static bool begin_values(const mps_stage *s, int32_t count, const char *what, double first,
                          double *values)
 {
@@ -292,7 +296,7 @@ MPS_ROW void look_beside(const int dim, const mps_view *v, const besides *b, int
 }
 MPS_ROWS(beside_rows, look_beside, besides)
 
-/* Calls that look at pairs; there are none before the search. */
+/* Calls that use pairs; there are none before the search. */
 int mps__stage_has_pairs(mps_stage *s, const char *call)
 {
     if (s->hook != MPS_POPULATE) return 1;
@@ -321,7 +325,7 @@ mps_status mps_grid_init(mps_grid *grid, size_t size)
     return mps__struct_init("mps_grid", grid, size, &none, sizeof none);
 }
 
-/* Chains of rows: serial, as each row may change the chain of any bucket. */
+/* Linked lists of the grid buckets: serial, as each particle may change the list of any bucket. */
 static void chain_rows(const mps_view *v, const mps_grid *grid, int32_t *first, int32_t *next)
 {
     for (int64_t i = v->n - 1; i >= 0; i--) {
@@ -334,11 +338,11 @@ static void chain_rows(const mps_view *v, const mps_grid *grid, int32_t *first, 
     }
 }
 
-/* ---- chains at a device: rows are sorted by their buckets ---- */
+/* ---- linked lists on a device: particles are sorted by bucket ---- */
 
 typedef struct chaining {
     mps_grid grid;
-    uint64_t *key; /* of rows; of places that are in order */
+    uint64_t *key; /* of particles; of sorted indices */
     int32_t *order;
     int32_t *first, *next;
 } chaining;
@@ -382,7 +386,7 @@ static int chain_there(mps_stage *s, const mps_grid *grid, int32_t *first, int32
     mps__sorting m = {
         .n = n, .run = 1, .key = key, .order = order, .new_key = key + n, .new_order = order + n};
     if (!key || !order) return 1;
-    h->everywhere = true; /* ghosts are in the grid too */
+    h->everywhere = true; /* the grid includes ghosts */
     mps_stage_rows(s, &bucket_rows, &f);
     mps__merge_sort(h->parallel, &m);
     f.key = (uint64_t *)m.key;
