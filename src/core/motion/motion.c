@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Beyond the table's end by rounding only [s]. */
+/* Tolerance for rounding of times beyond the table's end [s]. */
 static const double end_slack = 1e-9;
 
 const char *const mps__dof_name[MPS_DOF_COUNT] = {"MPS_MOVE_X",   "MPS_MOVE_Y",   "MPS_MOVE_Z",
@@ -61,7 +61,7 @@ bool mps__motion_angles_of(const mps__triad *axes, const double omega[3], const 
     return true;
 }
 
-/* What 2-D does not have, and what is not a number. */
+/* Refuse directions that 2-D does not have, and values that are not finite. */
 static mps_status check_state(const mps__motion *m, double t, const mps_motion_state *s)
 {
     const double *const set[3] = {s->value, s->rate, s->accel};
@@ -79,7 +79,7 @@ static mps_status check_state(const mps__motion *m, double t, const mps_motion_s
     return MPS_OK;
 }
 
-/* The arm from the centre, in three dimensions: in 2-D the tank's third coordinate is the centre's. */
+/* Arm from the centre, with three components: in 2-D the third is 0, the centre's plane. */
 static void arm(const mps__motion *m, const double *X, double out[3])
 {
     for (int d = 0; d < 3; d++) out[d] = d < m->dim ? X[d] - m->centre[d] : 0.0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Harmonic motion: a sum of A sin(w t + phase) and -A (1 - cos w t), each of which may grow over a ramp. */
+/* Harmonic motion: a sum of A sin(w t + phase) and -A (1 - cos w t), each with an optional ramp. */
 #include "angles.h"
 #include "builtin_motion.h"
 #include <math.h>
@@ -10,7 +10,7 @@ typedef struct harmonic_set {
     mps_harmonic item[];
 } harmonic_set;
 
-/* The amplitude over its final value, and its first two derivatives. */
+/* Ratio of the amplitude to its final value, and its first two derivatives. */
 static void grow(double ramp, double t, double f[3])
 {
     const double x = t < ramp ? fmax(t, 0) / ramp : 1, rest = 1 - x;

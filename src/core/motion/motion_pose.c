@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The way from one pose to another: in each degree of freedom the polynomial of degree 5 that has value, rate and acceleration of both. */
+/* Interpolation between two poses: in each degree of freedom the polynomial of degree 5 that has
+ * value, rate and acceleration of both. */
 #include "builtin_motion.h"
 #include "motion.h"
 
-/* Times this near to the end, over the time of the way, are the end: steps are sums of rounded numbers. */
+/* Times within this fraction of the interval before its end count as the end: times are sums of
+ * rounded steps. */
 static const double rounding = 1e-12;
 
-/* One degree of freedom at s = 0..1 of a way that takes T; x, v T, a T^2 at both ends. */
+/* One degree of freedom at s = 0..1 of an interval T; x, v T, a T^2 at both ends. */
 static void follow(const double from[3], const double to[3], double s, double T, double out[3])
 {
     const double way = to[0] - from[0] - from[1] - 0.5 * from[2], rate = to[1] - from[1] - from[2],
@@ -22,7 +24,7 @@ int mps__motion_posed(void *user, double t, mps_motion_state *state)
 {
     const mps__posed *p = user;
     const double T = p->end - p->begin, s = (t - p->begin) / T;
-    if (s <= 0 || s >= 1 - rounding) { /* not a digit of the given pose is lost */
+    if (s <= 0 || s >= 1 - rounding) { /* exactly the given pose */
         *state = s <= 0 ? p->from : p->to;
         return 0;
     }

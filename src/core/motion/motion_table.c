@@ -8,15 +8,16 @@ typedef struct spline_table {
     int64_t rows;
     int32_t dofs, dof[MPS_DOF_COUNT];
     const double *t;      /* [rows] */
-    const double *value;  /* [dofs*rows], column by column */
+    const double *value;  /* [dofs*rows], one column after the other */
     const double *second; /* [dofs*rows] second derivatives at the knots */
-    /* of each column: how far accelerations may be off a straight line, and values by rounding */
+    /* of each column: tolerated deviation of accelerations from a line; rounding error of values */
     double slack[MPS_DOF_COUNT], rounding[MPS_DOF_COUNT];
     double data[];
 } spline_table;
 
-/* Second derivatives m of the natural spline: m_0 = m_last = 0 and, with h_k = t_k+1 - t_k,
- * h_k-1 m_k-1 + 2 (h_k-1 + h_k) m_k + h_k m_k+1 = 6 (slope_k - slope_k-1). Thomas algorithm; `upper` [rows] is scratch. */
+/* Second derivatives m of the natural spline: m_0 = m_last = 0 and, with h_k = t_k+1 - t_k, h_k-1
+ * m_k-1 + 2 (h_k-1 + h_k) m_k + h_k m_k+1 = 6 (slope_k - slope_k-1). Thomas algorithm; `upper`
+ * [rows] is workspace. */
 static void natural_spline(int64_t rows, const double *t, const double *y, double *m, double *upper)
 {
     m[0] = upper[0] = 0;
@@ -31,7 +32,7 @@ static void natural_spline(int64_t rows, const double *t, const double *y, doubl
     for (int64_t k = rows - 2; k > 0; k--) m[k] -= upper[k] * m[k + 1];
 }
 
-/* The last interval whose beginning is not after t. */
+/* The last interval that begins at or before t. */
 static int64_t find_interval(const spline_table *s, double t)
 {
     int64_t low = 0, high = s->rows - 1;
@@ -45,7 +46,7 @@ static int64_t find_interval(const spline_table *s, double t)
     return low;
 }
 
-/* Both end terms vanish exactly at their knots, so the values there are the table's. */
+/* Both end terms vanish exactly at their knots: values there are those of the table. */
 static void evaluate(const spline_table *s, int32_t column, int64_t k, double t,
                      mps_motion_state *state)
 {
@@ -59,7 +60,8 @@ static void evaluate(const spline_table *s, int32_t column, int64_t k, double t,
     state->accel[dof] = a * m[k] + b * m[k + 1];
 }
 
-/* In a twentieth of its period a harmonic of the amplitude A leaves a straight line by (2 pi/20)^2 A/8. */
+/* In a twentieth of its period a harmonic of amplitude A deviates from a line by (2 pi/20)^2
+ * A/8. */
 static void note_slack(spline_table *s, int32_t column)
 {
     const double share = 0.0123, digits = 1e-13;
@@ -75,7 +77,7 @@ static void note_slack(spline_table *s, int32_t column)
 void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, const double *t,
                                int32_t dofs, const int32_t *dof, const double *values)
 {
-    /* t, values, second derivatives, scratch */
+    /* t, values, second derivatives, workspace */
     uint64_t numbers = (uint64_t)rows * (2u * (uint64_t)dofs + 2u);
     if ((uint64_t)rows > SIZE_MAX / 1024) return NULL;
     spline_table *s = allocator->alloc(allocator->user,
@@ -100,7 +102,7 @@ void *mps__motion_table_create(const mps_allocator *allocator, int64_t rows, con
 int mps__motion_table(void *user, double t, mps_motion_state *state)
 {
     const spline_table *s = user;
-    /* a time outside by rounding is the end */
+    /* a time outside by rounding */
     if (t < s->t[0]) t = s->t[0];
     if (t > s->t[s->rows - 1]) t = s->t[s->rows - 1];
     int64_t k = find_interval(s, t);
@@ -108,7 +110,8 @@ int mps__motion_table(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* Time of the last row up to `end` that sees all rows since t, in interval k, along a straight line of accelerations; `end` if all do. */
+/* Time of the last row up to `end` for which all rows since t, in interval k, have accelerations
+ * within `slack` of a line; `end` if this holds for all. */
 static double last_row_in_line(const spline_table *s, int32_t column, int64_t k, double t,
                                double end)
 {

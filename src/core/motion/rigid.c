@@ -7,20 +7,20 @@
 #include <math.h>
 #include <string.h>
 
-/* A degree of freedom is moved by less than this share of the liquid: by nothing. */
+/* A degree of freedom whose mass is below this fraction of the liquid's is singular. */
 static const double NOTHING = 1e-9;
-/* A rate that is stopped is less than this share of what it was. */
+/* A rate that friction stops is below this fraction of its former value. */
 static const double ROUNDING = 4 * DBL_EPSILON;
-/* cos of MPS_ROTATE_Z, below which the two other angles are one. */
+/* cos of MPS_ROTATE_Z, below which the two other angles are degenerate. */
 static const double ALIKE = 1e-6;
 
 /* A body at a pose, axes of the lab. */
 typedef struct shape {
-    /* velocities of the centre of motion and angular velocity, by the rate of each degree */
+    /* velocities of the centre of motion and angular velocity, for the rate of each degree */
     double t[6][6];
-    double bias[3]; /* angular acceleration by the rates alone */
+    double bias[3]; /* angular acceleration due to the rates alone */
     double omega[3], rotation[9];
-    /* from the centre of motion to that of mass; about the latter */
+    /* from the centre of motion to the centre of mass; inertia about the centre of mass */
     double mass, arm[3], inertia[9];
 } shape;
 
@@ -29,7 +29,7 @@ static void multiply(const double m[9], const double v[3], double out[3])
     for (int d = 0; d < 3; d++) out[d] = mps__dot(m + 3 * d, v, 3);
 }
 
-/* The directions of angles are linear in their rates. */
+/* Columns of t. The directions of angles are linear in their rates. */
 static void find_directions(const mps_motion_state *at, const double rate[6], shape *s)
 {
     mps_motion_state one = *at;
@@ -70,8 +70,8 @@ static void find_shape(const mps_body *b, const double centre[3], const mps_moti
         }
 }
 
-/* Force and moment about the centre of motion that give the body a linear and an angular
- * acceleration, without velocity. */
+/* Force and moment about the centre of motion for a linear and an angular acceleration at zero
+ * velocity. */
 static void inertial_load(const shape *s, const double a[6], double out[6])
 {
     double at_mass[3], turn[3];
@@ -82,7 +82,7 @@ static void inertial_load(const shape *s, const double a[6], double out[6])
     for (int d = 0; d < 3; d++) out[3 + d] += turn[d];
 }
 
-/* What velocities ask for: m w x (w x r) at the centre of mass, and w x I w. */
+/* Load due to velocities: m w x (w x r) at the centre of mass, and w x I w. */
 static void gyroscopic_load(const shape *s, double out[6])
 {
     double turn[3], spin[3], moment[3];
@@ -99,7 +99,7 @@ uint32_t mps__rigid_columns(const mps_body *b, int32_t dim)
 {
     const uint32_t turns = 1U << MPS_ROTATE_X | 1U << MPS_ROTATE_Y | 1U << MPS_ROTATE_Z,
                    asked = (uint32_t)b->free;
-    /* an angle turns about an axis that other angles have turned */
+    /* the axis of an angle depends on the other angles */
     return dim == 3 && asked & turns ? asked | turns : asked;
 }
 
@@ -121,7 +121,7 @@ void mps__rigid_advance(const mps_body *b, const mps_motion_state *now, const do
 
 typedef struct system {
     int32_t count, dof[6];
-    double h[6][6], rhs[6], share[6]; /* share: of the liquid in h[k][k] */
+    double h[6][6], rhs[6], share[6]; /* contribution of the liquid to h[k][k] */
 } system;
 
 /* Loads of springs and dampers. */
@@ -135,7 +135,8 @@ static void restore(const mps_body *b, const double place[6], const double rate[
     }
 }
 
-/* Springs act by (q_before + 2 q + q_next)/4, dampers by the mean of the rates before and after. */
+/* Springs act with (q_before + 2 q + q_next)/4, dampers with the mean of the rates before and
+ * after. */
 static void restoring_load(const mps_body *b, const mps_motion_state *now,
                            const mps__rigid_loads *l, const double accel[6], double out[6])
 {
@@ -180,8 +181,8 @@ static void fill_system(const mps_body *b, const shape *s, const mps_motion_stat
     }
 }
 
-/* Gauss without exchange: the matrix is positive definite but for the differences of A and its
- * transpose. -1: solved, else the row that has nothing to move. */
+/* Gaussian elimination without pivoting: the matrix is positive definite except for the asymmetry
+ * of A. @return -1: solved, else the singular row */
 static int32_t eliminate(system *y, const mps__rigid_loads *l, mps__rigid_step *out)
 {
     const int32_t n = y->count;
@@ -206,7 +207,7 @@ static int32_t eliminate(system *y, const mps__rigid_loads *l, mps__rigid_step *
 
 /* ---- dry friction ---- */
 
-/* A degree with friction moves backwards, rests, or moves forwards. */
+/* A degree with friction slips backwards, sticks, or slips forwards. */
 enum { BACK = -1, RESTS = 0, FORTH = 1, WAYS = 3 };
 
 typedef struct rubbing {
@@ -217,9 +218,9 @@ typedef struct rubbing {
     int32_t count, row[6]; /* rows of the degrees with friction */
 } rubbing;
 
-/* Accelerations and loads of friction where each degree with friction goes this way. @return by
- * how much that contradicts itself; 0: it is the solution. A rest is kept by a row of its own,
- * rate + dt accel = 0, and its load is what the other row lacks. */
+/* Accelerations and friction loads for a given state of each degree with friction. A degree that
+ * sticks gets the row rate + dt accel = 0; its load is the residual of its original row. @return
+ * how far the result contradicts the states; 0: it is the solution */
 static double try_ways(const rubbing *f, const int32_t way[6], double accel[6], double load[6])
 {
     system s = f->y;
@@ -254,9 +255,9 @@ static double try_ways(const rubbing *f, const int32_t way[6], double accel[6], 
     return wrong;
 }
 
-/* The matrix is positive definite, so one choice of ways and no other is consistent, but for
- * equal ones at the limits. Few degrees have friction: all choices are tried, the one that is
- * least wrong is taken. */
+/* The matrix is positive definite, so exactly one combination of states is consistent, apart from
+ * ties at the limits. As few degrees have friction, all combinations are tried, and the one with
+ * the smallest contradiction is used. */
 static void rub(const rubbing *f, mps__rigid_step *out)
 {
     int32_t choices = 1;
@@ -266,7 +267,7 @@ static void rub(const rubbing *f, mps__rigid_step *out)
         int32_t way[6];
         double accel[6] = {0}, load[6] = {0};
         for (int32_t k = 0, rest = n; k < f->count; k++, rest /= WAYS) {
-            const int32_t digit = rest % WAYS; /* first those that rest */
+            const int32_t digit = rest % WAYS; /* sticking first */
             way[k] = digit == 0 ? RESTS : digit == 1 ? FORTH : BACK;
         }
         const double wrong = try_ways(f, way, accel, load);
@@ -277,7 +278,7 @@ static void rub(const rubbing *f, mps__rigid_step *out)
     }
 }
 
-/* Loads that the solution has, and their work over the mean velocities of the step. */
+/* Loads of the solution, and their work with the mean velocities of the step. */
 static void book(const mps_body *b, const shape *s, const mps_motion_state *now,
                  const mps__rigid_loads *l, mps__rigid_step *out)
 {
@@ -309,7 +310,7 @@ bool mps__rigid_solve(const mps_body *b, const double centre[3], const mps_motio
     shape s;
     *out = (mps__rigid_step){.singular = -1};
     for (int k = 0; k < 6; k++) {
-        /* velocities of the time of the pose: those of the state are means over the last step */
+        /* velocities at the time of the pose: those of the state are means over the last step */
         rate[k] = now->rate[k] + (mps__rigid_is_free(b, k) ? 0.5 * l->dt * now->accel[k] : 0);
         if (mps__rigid_is_free(b, k)) y.dof[y.count++] = k;
     }

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rotations about the axes that a body carries along. */
+/* Rotations about body-fixed axes. */
 #include "rotation.h"
 #include "angles.h"
 #include "base.h"
 #include <math.h>
 
-/* Turn the two other axes about axis k, from the one that follows it to the next. */
+/* Rotate the two other axes about axis k, from its successor towards the next one. */
 static void turn_about(int32_t k, double angle, mps__triad *axes)
 {
     const double c = mps__cos(angle), s = mps__sin(angle);
@@ -17,8 +17,8 @@ static void turn_about(int32_t k, double angle, mps__triad *axes)
     }
 }
 
-/* omega = sum of rate_k e_k, where e_k is the axis of rotation k after the rotations before it. It turns with their omega, so
- * alpha = sum of accel_k e_k + omega_before x rate_k e_k. */
+/* omega = sum of rate_k e_k, where e_k is the axis of rotation k after the rotations before it. It
+ * rotates with their omega, so alpha = sum of accel_k e_k + omega_before x rate_k e_k. */
 void mps__rotation_apply(const mps__angles *a, mps__triad *axes, double omega[3], double alpha[3])
 {
     for (int d = 0; d < 3; d++) omega[d] = alpha[d] = 0;
@@ -34,8 +34,8 @@ void mps__rotation_apply(const mps__angles *a, mps__triad *axes, double omega[3]
     }
 }
 
-/* Angular velocity, or what is left of the angular acceleration, along the axes of the three rotations. The second is
- * normal to the others, which have the cosine g. */
+/* Components of an angular velocity, or of the remaining angular acceleration, along the axes of
+ * the three rotations. The second is normal to the others, which have the cosine g. */
 static void along_axes(const mps__triad *axes, double g, double square, const double w[3],
                        double out[3])
 {
@@ -45,8 +45,10 @@ static void along_axes(const mps__triad *axes, double g, double square, const do
     out[2] = (third - g * first) / square;
 }
 
-/* With i, j, k the axes in order, s = 1 where k follows j and j follows i, else -1, and M = (rest_m . axes_n):
- *   M_ik = s sin b, M_jk = -s sin a cos b, M_kk = cos a cos b, M_ij = -s cos b sin c, M_ii = cos b cos c. */
+/* With i, j, k the axes in order, s = 1 where k follows j and j follows i, else -1, and M = (rest_m
+ * . axes_n):
+ *   M_ik = s sin b, M_jk = -s sin a cos b, M_kk = cos a cos b, M_ij = -s cos b sin c, M_ii = cos b
+ * cos c. */
 static bool find_angles(const mps__triad *rest, const mps__triad *axes, mps__angles *a,
                         double *square)
 {
@@ -62,7 +64,7 @@ static bool find_angles(const mps__triad *rest, const mps__triad *axes, mps__ang
     return cosine > 1e-6;
 }
 
-/* Whether the body turns about its axis j alone; then that is the second angle, of any size. */
+/* Whether the body rotates about its axis j alone; then that is the second angle, of any size. */
 static bool turns_about(const mps__triad *rest, const mps__triad *axes, const double omega[3],
                         const double alpha[3], mps__angles *a)
 {
@@ -101,7 +103,7 @@ bool mps__rotation_angles(const mps__triad *rest, const mps__triad *axes, const 
     }
     const double g = mps__dot(along.e[0], along.e[2], 3);
     along_axes(&along, g, square, omega, a->rate);
-    /* the angular acceleration that the rates have without accelerations of the angles */
+    /* angular acceleration due to the rates alone */
     for (int n = 0; n < 3; n++) a->accel[n] = 0;
     mps__rotation_apply(a, &turned, turn, left);
     for (int d = 0; d < 3; d++) left[d] = alpha[d] - left[d];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Search of pairs: cells as sorted 64-bit keys (x fastest), candidates with a skin, all in one pass. */
+/* Neighbour search: cells as sorted 64-bit keys (x fastest), candidates with a skin, in one
+ * pass. */
 #include "neighbours_rows.h"
 #include "ghosts.h"
 #include "loop.h"
@@ -8,16 +9,16 @@
 #include <stdatomic.h>
 #include <string.h>
 
-/* Places looked at between two copies of what was found; entries of rows that a thread collects. */
+/* Candidates tested per block; capacity of a thread's row buffer. */
 enum { MPS__CHUNK = 256, MPS__SHELF = 4096 };
 
-/* Positions, and those at the last search. */
+/* Positions now, and at the last search. */
 typedef struct way {
     const double *x, *searched;
-    const uint8_t *ghost; /* NULL: alone */
+    const uint8_t *ghost; /* NULL: single rank */
 } way;
 
-/* Largest square of a way since the last search. */
+/* Largest squared displacement since the last search. */
 MPS_ROW void moved_row(const int dim, const way *w, int64_t i, double *worst)
 {
     double s = 0;
@@ -44,7 +45,7 @@ bool mps__neighbours_within(const mps_neighbours *l, int64_t n, double re_far, d
     return l->valid && n == l->n && re_far == l->re_far && square < 0.25 * l->skin * l->skin;
 }
 
-/* ---- memory ---------------------------------------------------------------------------------------------------- */
+/* ---- memory ---- */
 
 static mps_status reserve(mps_neighbours *l, int64_t n)
 {
@@ -91,29 +92,31 @@ mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacit
     return MPS_OK;
 }
 
-/* ---- places around a cell -------------------------------------------------------------------------------------- */
+/* ---- particles around a cell ---- */
 
-/* What the search of a part of the places sees. */
+/* What the search of a part of the sorted particles reads and writes. */
 typedef struct search {
     mps__rings rings;
     double reach2;
-    bool sorted; /* place a is particle a */
+    bool sorted; /* sorted index a is particle a */
     bool ghost_rows, dummy_rows;
-    int64_t n, room; /* particles, entries that col has room for */
+    int64_t n, room; /* particles; capacity of col */
     const uint64_t *key;
     const int32_t *order;
-    const double *place;          /* positions of the places, one axis after the other */
-    const int32_t *kind;          /* NULL: all alike; else with */
-    const int32_t *fluid, *dummy; /* of them up to each place */
-    const uint8_t *ghost;         /* NULL: alone */
+    const double *place;          /* positions in sorted order, one axis after the other */
+    const int32_t *kind;          /* NULL: every particle gets a row; else with */
+    const int32_t *fluid, *dummy; /* counts of fluid and dummies up to each sorted index */
+    const uint8_t *ghost;         /* NULL: single rank */
     int64_t *begin, *middle, *end;
     int32_t *count, *col;
     uint8_t *rim, *idle;
-    atomic_int_least64_t *taken; /* entries of col that rows have, or would have were it longer */
-    int64_t *longest; /* [MPS__PARTS] longest row of each part if too long for the stack, else 0 */
+    atomic_int_least64_t *taken; /* entries of col that the rows need; may exceed its capacity */
+    /* [MPS__PARTS] longest row of each part if it exceeds the stack buffer, else 0 */
+    int64_t *longest;
 } search;
 
-/* Positions, and room for them in the order of the places, one axis after the other, so that loops over places run along memory. */
+/* Positions, and a buffer for them in sorted order, one axis after the other, for contiguous
+ * access. */
 typedef struct places {
     int64_t n;
     const int32_t *order;
@@ -127,7 +130,7 @@ MPS_ROW void place_row(const int dim, const places *p, int64_t a)
 }
 MPS__LOOP(place_rows, place_row, places)
 
-/* Whether any are in these ranges. */
+/* Whether these ranges have any. */
 static bool any_within(const int32_t *until, int64_t range[9][2], int ranges)
 {
     bool any = false;
@@ -136,7 +139,8 @@ static bool any_within(const int32_t *until, int64_t range[9][2], int ranges)
     return any;
 }
 
-/* Squared distances of place a to from..to-1, at most MPS__CHUNK: a loop of its own, so that the compiler takes several at a time. */
+/* Squared distances of sorted particle a to from..to-1, at most MPS__CHUNK: a separate loop, so
+ * that the compiler vectorises it. */
 MPS_ROW void measure_places(const int dim, const search *s, int64_t a, int64_t from, int64_t to,
                             double *r2)
 {
@@ -149,17 +153,17 @@ MPS_ROW void measure_places(const int dim, const search *s, int64_t a, int64_t f
     if (a >= from && a < to) r2[a - from] = INFINITY; /* no pair with itself */
 }
 
-/* ---- rows ------------------------------------------------------------------------------------------------------ */
+/* ---- rows ---- */
 
-/* What was found about a place. */
+/* Candidates found for one particle. */
 typedef struct finding {
-    int64_t count; /* more than MPS__ROW: not all are here */
+    int64_t count; /* above MPS__ROW: the list is incomplete */
     int32_t j[MPS__ROW + MPS__CHUNK];
     double r2[MPS__ROW + MPS__CHUNK];
 } finding;
 
-/* Particles nearer to place a than the reach. Compaction without branches: every third or sixth place is near, and no processor
- * guesses which. */
+/* Particles nearer to sorted particle a than the reach. Branch-free compaction: every third or
+ * sixth candidate is near, which branch prediction cannot guess. */
 MPS_ROW void find_row(const int dim, const bool sorted, const search *s, int64_t a,
                       int64_t range[9][2], int ranges, finding *f)
 {
@@ -179,7 +183,8 @@ MPS_ROW void find_row(const int dim, const bool sorted, const search *s, int64_t
     f->count = n;
 }
 
-/* The same for rows of any length, which are not parted. They are stored if `row` is not NULL; returns how many. */
+/* Candidates of a row of any length, not partitioned; stored if `row` is not NULL. @return their
+ * number */
 MPS_ROW int64_t long_row(const int dim, const search *s, int64_t a, int64_t range[9][2], int ranges,
                          int32_t *row)
 {
@@ -203,20 +208,23 @@ static bool meets_fluid(const search *s, const finding *f)
     return any;
 }
 
-/* Rows of a thread on their way to col. Those of places from.. on have begins within it. */
+/* Row buffer of a thread, written to col in blocks. The begins of rows of sorted particles from
+ * `from` on are relative to it. */
 typedef struct shelf {
     int64_t from, used;
     int32_t entry[MPS__SHELF];
 } shelf;
 
-/* Whether `count` entries of col can be had, and where. All threads take theirs one behind the other. */
+/* Reserve `count` entries of col; threads reserve disjoint ranges. false: its capacity is
+ * exceeded */
 static bool take(const search *s, int64_t count, int64_t *at)
 {
     *at = atomic_fetch_add(s->taken, count);
     return *at + count <= s->room;
 }
 
-/* Rows of the places up to `to` move from the shelf to col. Without room they are only counted. */
+/* Copy rows of sorted particles up to `to` from the buffer to col. If the capacity is exceeded they
+ * are only counted. */
 static void unload(const search *s, shelf *h, int64_t to)
 {
     int64_t at;
@@ -241,7 +249,7 @@ static void set_row(const search *s, int64_t i, int64_t begin, mps__parted row, 
     s->count[i] = (int32_t)count;
 }
 
-/* Row of place a from what was found. */
+/* Store the row of sorted particle a. */
 MPS_ROW void keep_row(const bool sorted, const search *s, int64_t a, const finding *f, shelf *h)
 {
     int32_t far[MPS__ROW], out[MPS__ROW];
@@ -255,7 +263,7 @@ MPS_ROW void keep_row(const bool sorted, const search *s, int64_t a, const findi
     mps__sort_row(row + parted.near, parted.far);
 }
 
-/* A row longer than the stack has room for: not parted yet. */
+/* Store a row that exceeds the stack buffer, not partitioned yet. */
 MPS_ROW void keep_long_row(const int dim, const search *s, int64_t a, int64_t range[9][2],
                            int ranges, shelf *h, int64_t *longest)
 {
@@ -268,7 +276,7 @@ MPS_ROW void keep_long_row(const int dim, const search *s, int64_t a, int64_t ra
     h->from = a + 1;
 }
 
-/* All rows of the cell that starts at sorted place `first`. Returns the end of its places. */
+/* All rows of the cell that starts at sorted index `first`. @return its end */
 MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, int64_t first,
                             shelf *h, int64_t *longest)
 {
@@ -295,7 +303,7 @@ MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, i
     return a;
 }
 
-/* The cells that begin in one of MPS__PARTS parts of the sorted places. */
+/* The cells that begin in one of MPS__PARTS parts of the sorted particles. */
 MPS_ROW void search_part(const int dim, const search *s, int64_t part)
 {
     const int64_t end = s->n * (part + 1) / MPS__PARTS;
@@ -312,7 +320,8 @@ MPS_ROW void search_part(const int dim, const search *s, int64_t part)
 }
 MPS__LOOP(search_parts, search_part, search)
 
-/* Fluid and dummies up to each place, itself included. They borrow the second half of the keys, which was scratch of their sort. */
+/* Counts of fluid and dummies up to and including each sorted index. They use the second half of
+ * the keys, the workspace of the sort. */
 static int32_t *fluid_until(const mps_neighbours *l)
 {
     return (int32_t *)(void *)(l->key + l->n);
@@ -356,8 +365,8 @@ static search search_of(const mps_neighbours *l, bool sorted)
                     .idle = l->idle};
 }
 
-/* All rows. There are about as many pairs as last time; where there is no room for them all, this pass counts them, and a second one stores
- * them. */
+/* All rows. The capacity is estimated from the last search; if it is too small, this pass counts
+ * the pairs, and a second one stores them. */
 static mps_status search_rows(mps_neighbours *l, bool sorted)
 {
     int64_t expected = l->pairs + l->pairs / 64, longest[MPS__PARTS];
@@ -389,7 +398,7 @@ mps_status mps__neighbours_begin(mps_neighbours *l, int64_t n, const double *x, 
     if (re_near < re_far)
         MPS__TRY(
             mps__neighbours_fit(l, (void **)&l->far_end, &l->far_capacity, n, sizeof *l->far_end));
-    /* on many ranks a search has a few particles more or less than the one before */
+    /* on many ranks n differs slightly from search to search */
     const bool near = n <= l->n + l->n / 8 && n >= l->n - l->n / 8;
     const bool alike = near && l->n > 0 && re_far == l->re_far && l->partial == (l->kind != NULL) &&
                        l->dummy_rows == l->had_dummy_rows;
@@ -416,7 +425,7 @@ mps_status mps__neighbours_search(mps_neighbours *l, int64_t n, const double *x,
     const bool sorted = l->sorted;
     if (!sorted) MPS__TRY(mps__neighbours_order(l, n, x, NULL, re_far));
     MPS__TRY(mps__neighbours_begin(l, n, x, re_near, re_far));
-    /* they borrow l->searched, which takes its own values after the search */
+    /* uses l->searched as workspace, which is overwritten after the search */
     mps__loop_run(l->parallel, &place_rows, l->dim, n, &(places){n, l->order, x, l->searched});
     if (l->kind) count_kinds(l);
     MPS__TRY(search_rows(l, sorted));

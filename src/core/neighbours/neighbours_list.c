@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists are made and freed; a list that stands alone, with memory and threads of its own. */
+/* Creation and destruction of lists; standalone lists, with memory and threads of their own. */
 #include "kernel.h"
 #include "neighbours.h"
 #include <math.h>
 
-/* Skin [dp]: a search is good until some particle moved half of it. At the default CFL of 0.3 that is every other step at least. */
+/* Skin [dp]: a search is valid until a particle has moved by half of it. At the default CFL of 0.3
+ * that is at least two steps. */
 static const double skin_of_dp = 0.62;
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp)
@@ -40,7 +41,7 @@ void mps__neighbours_free(mps_neighbours *l)
     mps__neighbours_init(l, l->context, l->dim, l->dp);
 }
 
-/* ---- a list that stands alone ---------------------------------------------------------------------------------- */
+/* ---- standalone lists ---- */
 
 mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator,
                                  mps_neighbours **list)
@@ -114,7 +115,7 @@ mps_status mps_neighbours_build(mps_neighbours *list, int64_t n, const double *x
     return status;
 }
 
-/* ---- stencils ---------------------------------------------------------------------------------------------------- */
+/* ---- stencils ---- */
 
 static const mps_stencil no_stencil = {.struct_size = sizeof no_stencil};
 

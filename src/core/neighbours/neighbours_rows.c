@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Exact rows at positions that have changed since the search, from its candidates, and what screens hide. */
+/* Exact rows at the present positions from the candidates of the last search; occlusion. */
 #include "neighbours_rows.h"
 #include "loop.h"
 #include "scan.h"
 #include <math.h>
 
-/* Pairs nearer than this [dp] have no direction and are left out: they are the two faces of a thin plate. */
+/* Pairs nearer than this [dp] have no direction and are skipped: they are the two faces of a thin
+ * plate. */
 static const double coincident = 1e-6;
 
 mps__rings mps__rings_of(const mps_neighbours *l)
@@ -24,7 +25,7 @@ void mps__sort_row(int32_t *row, int64_t n)
     }
 }
 
-/* What exact rows see: the list, and room for rows that are too long for the stack. */
+/* What exact rows use: the list, and a workspace for rows that exceed the stack buffer. */
 typedef struct exact {
     mps__rings rings;
     const double *x;
@@ -32,11 +33,11 @@ typedef struct exact {
     const int32_t *count;
     int64_t *middle, *end;
     int32_t *col;
-    int64_t n, longest; /* particles; candidates of the longest of such rows */
+    int64_t n, longest; /* particles; candidates of the longest such row */
     double *scratch;    /* [MPS__PARTS * 2 longest] */
 } exact;
 
-/* Squared distances of i to some of its candidates. Returns whether they are all in [least, most). */
+/* Squared distances of i to some candidates. @return whether all are in [least, most) */
 MPS_ROW bool measure(const int dim, const double *x, int64_t i, const int32_t *row, int64_t count,
                      const double ring[2], double *r2)
 {
@@ -51,8 +52,8 @@ MPS_ROW bool measure(const int dim, const double *x, int64_t i, const int32_t *r
     return nearest >= ring[0] && farthest < ring[1];
 }
 
-/* Squared distances of i to all candidates. Returns whether each is still in the part where the last step put it: then the row is what it
- * should be. */
+/* Squared distances of i to all candidates. @return whether each is still in its part, so that the
+ * row is unchanged */
 MPS_ROW bool row_stands(const int dim, const exact *l, int64_t i, double *r2)
 {
     const mps__rings *g = &l->rings;
@@ -67,13 +68,14 @@ MPS_ROW bool row_stands(const int dim, const exact *l, int64_t i, double *r2)
     return near_stand && far_stand && out_stand;
 }
 
-/* Room for the work on a row. */
+/* Workspace of a row. */
 typedef struct room {
     double *r2;
     int32_t *far, *out;
 } room;
 
-/* Few have changed their part since the last step, so that sorting is short work. */
+/* Few candidates have changed their part since the last step, so that the insertion sort is
+ * cheap. */
 MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
 {
     if (row_stands(dim, l, i, r->r2)) return;
@@ -87,7 +89,7 @@ MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
 }
 
 #ifdef MPS_DEVICE
-/* A device has no room for buffers: each candidate goes up the row to its place. Most stay where they are. */
+/* A device has no buffers: each candidate is inserted into its part in place. Most do not move. */
 
 MPS_ROW int ring_of(const int dim, const exact *l, int64_t i, int32_t j)
 {
@@ -127,7 +129,7 @@ MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
 #endif
 MPS__LOOP(exact_rows, exact_row, exact)
 
-/* Rows too long for the stack, of one of MPS__PARTS parts of the particles. */
+/* Rows that exceed the stack buffer, of one of MPS__PARTS parts of the particles. */
 MPS_ROW void exact_part(const int dim, const exact *l, int64_t part)
 {
     double *const r2 = l->scratch + 2 * l->longest * part;
@@ -160,7 +162,7 @@ mps_status mps__neighbours_part_long(mps_neighbours *l)
     return MPS_OK;
 }
 
-/* What screens hide in rows of seers. */
+/* Occlusion in the rows of near-plate particles. */
 typedef struct hiding {
     const mps__screen *list;
     int32_t screens;
@@ -171,7 +173,8 @@ typedef struct hiding {
     int32_t *col;
 } hiding;
 
-/* Pairs from..to-1 that see each other change places with those from `out` on; they stay in order. Returns the end. */
+/* Swap the visible pairs of from..to-1 with those from `out` on, in order. @return the end of the
+ * visible ones */
 static int64_t keep_visible(const hiding *l, const mps__seer *a, int64_t from, int64_t to,
                             int64_t out)
 {
@@ -184,7 +187,7 @@ static int64_t keep_visible(const hiding *l, const mps__seer *a, int64_t from, i
     return out;
 }
 
-/* What screens hide goes behind the others. */
+/* Move occluded pairs behind the others. */
 MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 {
     const mps__seer *a = &l->seer[k];
@@ -240,7 +243,7 @@ void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__r
     mps__neighbours_hide_there(l, there);
 }
 
-/* Near pairs of a row, one place on: a sum over these up to a row is the begin of the row. */
+/* Number of near pairs of row i - 1 at index i; its prefix sum is the begin of row i. */
 typedef struct nears {
     const int64_t *begin, *middle;
     int64_t *near_begin;

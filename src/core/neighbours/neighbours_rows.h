@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the search of pairs and the rows at later positions share. */
+/* Common parts of the search and of the rows at later positions. */
 #ifndef MPS_CORE_NEIGHBOURS_ROWS_H
 #define MPS_CORE_NEIGHBOURS_ROWS_H
 
@@ -8,26 +8,27 @@
 #include <mps/stage.h>
 #include <string.h>
 
-/* Rows up to this length are worked on in the stack; longer ones are an exception. */
+/* Capacity of the stack buffer of a row; longer rows are an exception. */
 enum { MPS__ROW = 1024 };
 
-/* Squares of the distances between which pairs are near, far and out of reach. */
+/* Squared distances that separate near pairs, other pairs in reach, and candidates out of reach. */
 typedef struct mps__rings {
     double least, near2, far2;
 } mps__rings;
 
 mps__rings mps__rings_of(const mps_neighbours *l);
 
-/* Ascending columns. */
+/* Sort columns in ascending order. */
 void mps__sort_row(int32_t *row, int64_t n);
 
-/* Near pairs of a row, and the others within reach. */
+/* Numbers of near pairs, and of other pairs in reach. */
 typedef struct mps__parted {
     int64_t near, far;
 } mps__parted;
 
-/* Put candidates, whose squared distances are r2, into `row`: near pairs, then the others within reach, then what is out of it, the last two
- * by way of `far` and `out`. `from` may be `row`. Each candidate is written to all three and counted at one: no branches. */
+/* Partition candidates with squared distances r2 into `row`: near pairs, other pairs in reach, out
+ * of reach; `far` and `out` are buffers of the last two. `from` may be `row`. Branch-free: each
+ * candidate is written to all three and counted in one. */
 MPS_ROW mps__parted mps__part_row(const mps__rings *g, const int32_t *from, const double *r2,
                                   int64_t count, int32_t *row, int32_t *far, int32_t *out)
 {
@@ -46,7 +47,7 @@ MPS_ROW mps__parted mps__part_row(const mps__rings *g, const int32_t *from, cons
     return (mps__parted){nears, fars};
 }
 
-/* The part that a squared distance belongs to: 0 near pairs, 1 the others within reach, 2 what is out of it. */
+/* Part of a squared distance: 0 near, 1 other pairs in reach, 2 out of reach. */
 MPS_ROW int mps__ring_of(const mps__rings *g, double r2)
 {
     return r2 >= g->least && r2 < g->far2 ? r2 >= g->near2 : 2;
@@ -67,7 +68,8 @@ static inline int64_t mps__first_at_least(const uint64_t *key, int64_t n, uint64
     return lo;
 }
 
-/* Ranges of n sorted places that hold the cells around that of key `middle`: one for each row of three cells. */
+/* Ranges of n sorted indices that hold the cells around that of key `middle`: one range for each
+ * row of three cells. */
 MPS_ROW int mps__ranges_around(const int dim, const uint64_t *key, int64_t n, uint64_t middle,
                                int64_t range[9][2])
 {
@@ -91,9 +93,10 @@ MPS_ROW int mps__ranges_around(const int dim, const uint64_t *key, int64_t n, ui
     return count;
 }
 
-/* Part rows that the search found too long for the stack. */
+/* Partition the rows that the search found too long for the stack buffer. */
 mps_status mps__neighbours_part_long(mps_neighbours *l);
-/* Room for `count` entries, not kept and not zeroed in what was there. Too much is given back: the first search has rows of all solids. */
+/* Allocate `count` entries; old contents are lost, new ones are not zeroed. Excess capacity is
+ * freed: the first search has rows of all solids. */
 mps_status mps__neighbours_fit(mps_neighbours *l, void **block, int64_t *capacity, int64_t count,
                                size_t size);
 

@@ -8,11 +8,12 @@
 
 enum { MPS__BITS_2D = 31, MPS__BITS_3D = 21 };
 
-/* More particles in one cell are an array whose positions were never set: n^2 pairs would take all
+/* More particles in one cell mean that positions were never set: n^2 pairs would exhaust the
  * memory. */
 enum { MPS__CROWD = 4096 };
 
-/* Cells are wider than the reach by this share, so that rounding of a cell number hides no pair. */
+/* Cells are wider than the reach by this fraction, so that rounding of a cell index cannot lose a
+ * pair. */
 static const double margin = 1e-6;
 
 int mps__cell_bits(int32_t dim)
@@ -24,7 +25,8 @@ typedef struct corners {
     const double *x;
 } corners;
 
-/* Stable least-significant-digit radix sort of (key, order); only digits that differ are passed over. */
+/* Stable least-significant-digit radix sort of (key, order); passes only over digits that
+ * differ. */
 void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
 {
     uint64_t *k0 = key, *k1 = key + n;
@@ -52,7 +54,8 @@ void mps__sort_keys(uint64_t *key, int32_t *order, int64_t n)
     }
 }
 
-/* Upper corner of the particles' box, and behind it the negative of the lower one; infinity where a position is no number. */
+/* Upper corner of the particles' box, then the negative of the lower one; infinite if a position is
+ * not finite. */
 MPS_ROW void corner_row(const int dim, const corners *c, int64_t i, double *values)
 {
     for (int d = 0; d < dim; d++) {
@@ -64,7 +67,7 @@ MPS_ROW void corner_row(const int dim, const corners *c, int64_t i, double *valu
 }
 MPS__VALUES(corner_rows, corner_row, corners, 0, 6)
 
-/* Numbers from 2^52 on are whole. */
+/* Doubles from 2^52 on are integers. */
 static inline double round_down(double v)
 {
     static const double most = 4503599627370496.0; /* 2^52 */
@@ -72,13 +75,14 @@ static inline double round_down(double v)
     return whole > v ? whole - 1 : whole;
 }
 
-/* What an error calls particle i: its id, or its place where there are no ids. */
+/* Name of particle i in error messages: its id, or its index if there are no ids. */
 static long long name_of(const int64_t *id, int64_t i)
 {
     return (long long)(id ? id[i] : i);
 }
 
-/* The particle at the upper end of the box along an axis, or at no number; of several the one with the least id. */
+/* The particle at the upper end of the box along an axis, or one that is not finite; of several the
+ * one with the least id. */
 static int64_t far_particle(const mps_neighbours *l, int64_t n, const double *x, const int64_t *id,
                             int d, double hi)
 {
@@ -88,7 +92,7 @@ static int64_t far_particle(const mps_neighbours *l, int64_t n, const double *x,
     return far < 0 ? 0 : far;
 }
 
-/* Most that particles may lie apart along an axis, in cells. */
+/* Largest extent of the particles along an axis, in cells. */
 static double cells_limit(const mps__cells *m)
 {
     return (double)(INT64_C(1) << m->bits) - 4.0;
@@ -99,7 +103,7 @@ static bool box_fits(const mps__cells *m, const double corner[6], int d)
     return (corner[d] + corner[3 + d]) / m->size < cells_limit(m);
 }
 
-/* Box of the particles and the packing of cell numbers into keys. Returns whether they fit. */
+/* Box of the particles and the packing of cell indices into keys. @return whether they fit */
 static bool find_cells(mps_neighbours *l, int64_t n, const double *x, double reach,
                        double corner[6])
 {
@@ -110,7 +114,7 @@ static bool find_cells(mps_neighbours *l, int64_t n, const double *x, double rea
     mps__values_run(l->parallel, &corner_rows, l->dim, n, &(corners){x}, NULL, corner);
     for (int d = 0; d < l->dim; d++) {
         fits = fits && box_fits(m, corner, d);
-        /* cell 0 stays empty: no neighbour is beyond it */
+        /* cell 0 stays empty: no neighbour is outside */
         m->first[d] = round_down(-corner[3 + d] / m->size) - 2;
     }
     return fits;
@@ -133,7 +137,8 @@ static mps_status map_cells(mps_neighbours *l, int64_t n, const double *x, const
     return MPS_OK;
 }
 
-/* Positions lie in the box of find_cells(). The number of a cell is bounded all the same, so that no position can be cast out of range. */
+/* Positions are in the box of find_cells(). The index is clamped all the same, so that no cast is
+ * out of range. */
 MPS_ROW uint64_t cell_key(const int dim, const mps__cells *m, const double *x)
 {
     const double last = (double)((INT64_C(1) << m->bits) - 2);
@@ -164,7 +169,7 @@ static mps_status check_crowds(const mps_neighbours *l, int64_t n, const double 
     return MPS_OK;
 }
 
-/* Particles of a cell by ascending id; keys are sorted. Most are in this order since the last search. */
+/* Sort particles of a cell by id; keys are sorted. Most are in this order since the last search. */
 static void order_ties(const mps_neighbours *l, int64_t n, const int64_t *id)
 {
     int32_t *const order = l->order;
@@ -181,7 +186,7 @@ typedef struct keying {
     mps__cells cells;
     const double *x;
     uint64_t *key;
-    int32_t *order; /* NULL: not wanted */
+    int32_t *order; /* NULL: not requested */
 } keying;
 
 MPS_ROW void key_row(const int dim, const keying *k, int64_t i)

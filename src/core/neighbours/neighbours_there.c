@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The search of candidates on a device, where a thread has no room for what it finds: each row is counted, then filled. The same candidates in the
- * same order as those of neighbours.c, for particles in the order of their cells. */
+/* Search of candidates on a device, where a thread has no buffer: each row is counted, then filled.
+ * Candidates and order are those of neighbours.c, for particles in cell order. */
 #include "neighbours_rows.h"
 #include "loop.h"
 #include "scan.h"
 #include <math.h>
 
-/* What a row sees. */
+/* What a row function reads. */
 typedef struct seeking {
     mps__rings rings;
     double reach2;
@@ -14,7 +14,7 @@ typedef struct seeking {
     mps__search_arrays at;
 } seeking;
 
-/* Candidates of a row, by the rings they are in. */
+/* Numbers of candidates of a row, by ring. */
 typedef struct counted {
     int64_t near, far, out;
 } counted;
@@ -24,7 +24,8 @@ MPS_ROW double square_to(const int dim, const seeking *s, int64_t i, int64_t j)
     return mps__square_between(s->at.x + i * dim, s->at.x + j * dim, dim);
 }
 
-/* Solids without fluid within reach get no pairs. The begin of a row is its length for now, its ends are lengths too. */
+/* Solids without fluid in reach get no pairs. Begin and ends of the row hold lengths until the
+ * scan. */
 MPS_ROW void count_row(const int dim, const seeking *s, int64_t i)
 {
     const mps__search_arrays *a = &s->at;
@@ -54,7 +55,7 @@ MPS_ROW void count_row(const int dim, const seeking *s, int64_t i)
 }
 MPS__LOOP(count_rows, count_row, seeking)
 
-/* The longest row, and the sum of all lengths up to a row. */
+/* Longest row, and prefix sum of the lengths. */
 MPS_ROW void measure_row(const int dim, const seeking *s, int64_t i, double *most)
 {
     const double count = s->at.count[i], sum = (double)s->at.begin[i];
@@ -64,7 +65,7 @@ MPS_ROW void measure_row(const int dim, const seeking *s, int64_t i, double *mos
 }
 MPS__VALUES_ANY(measure_rows, measure_row, seeking, 0, 2)
 
-/* The begin of a row is the end of its candidates so far. */
+/* During the fill, the begin of a row is the end of its candidates so far. */
 MPS_ROW void fill_row(const int dim, const seeking *s, int64_t i)
 {
     const mps__search_arrays *a = &s->at;

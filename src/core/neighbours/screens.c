@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which particles thin plates hide from which others. */
+/* Occlusion: which particles thin plates hide from each other. */
 #include "screens.h"
 #include <math.h>
 #include <mps/numbers.h>
 
-/* Most screens for which a particle keeps on which side it is. */
+/* Number of occluders for which a particle stores its side. */
 enum { MPS__SCREEN_BITS = 64 };
 
 void mps__screens_init(mps__screens *s, mps__context *context, int32_t dim)
@@ -31,7 +31,7 @@ void mps__screens_add(mps__screens *s, const mps__screen *screen)
     s->list[s->count++] = *screen;
 }
 
-/* Component along v of X seen from the corner; vectors of 2-D have a zero third component. */
+/* Component along v of X relative to the corner; vectors of 2-D have a zero third component. */
 static double component(const mps__screen *s, const double *v, const double *X)
 {
     double sum = 0;
@@ -76,8 +76,8 @@ void mps__screens_sides(const mps__screen *list, int32_t count, mps__seer *a)
         a->above |= (uint64_t)(mps__screen_height(&list[k], a->at) > 0) << k;
 }
 
-/* Where plates meet, a line may cross several screens: what is seen there is the shadow of the first of them. Most pairs stand on the same
- * side of all of them. */
+/* Where plates meet, a line may cross several occluders: the shadow of the first one is visible
+ * there. Most pairs are on the same side of all. */
 bool mps__screens_hidden(const mps__screen *list, int32_t count, const mps__seer *a,
                          const mps__seer *b)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inverse of the moments of a row, bounded where neighbours are too few. */
+/* Inverse of the moment matrix of a particle, bounded if neighbours are too few. */
 #include "operators.h"
 #include <math.h>
 #include <mps/numbers.h>
 
-/* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v take the eigenvectors. An angle whose square would overflow
- * is 0 to the last digit. */
+/* Jacobi rotation of a symmetric matrix in the plane (p, q); columns of v become the eigenvectors.
+ * An angle whose square would overflow is 0 in double precision. */
 static void rotate(double *a, double *v, int dim, int p, int q)
 {
     const double apq = a[p * dim + q], half = 0.5 * (a[q * dim + q] - a[p * dim + p]);
@@ -28,8 +28,9 @@ static void rotate(double *a, double *v, int dim, int p, int q)
     }
 }
 
-/* Inverse by cofactors if all eigenvalues exceed `least`, that is, if m - least 1 is positive definite (its leading minors
- * are positive). The rule for all but a few particles, and ten times cheaper than eigenvectors. */
+/* Inverse by cofactors if all eigenvalues exceed `least`, that is, if m - least 1 is positive
+ * definite (its leading minors are positive). This holds for all but a few particles, and is ten
+ * times cheaper than eigenvectors. */
 static bool inverse_regular_2d(const double *m, double least, double *inverse)
 {
     if (!(m[0] > least && (m[0] - least) * (m[3] - least) > m[1] * m[1])) return false;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constants of kernels, with a text where there are none. */
+/* Constants of kernels, with an error text if they are undefined. */
 #ifndef MPS_CORE_KERNEL_H
 #define MPS_CORE_KERNEL_H
 

@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public operators: argument checks, then a loop over rows. Every loop over pairs is a gather into the row it belongs to, so that any
- * number of threads gives the same bytes. */
+/* The public operators: argument checks, then a loop over particles. Every sum over pairs is done
+ * by the particle it belongs to, so that any number of threads gives the same bytes. */
 #include "operators.h"
 #include "loop.h"
 #include <math.h>
 
-/* ---- rows ------------------------------------------------------------------------------------------------------ */
+/* ---- row functions ---- */
 
-/* mps__op_begin() has refused arrays that are NULL, in a table that the analyser does not follow. */
+/* mps__op_begin() has refused arrays that are NULL, in a table that the analyser does not
+ * follow. */
 /* NOLINTBEGIN(clang-analyzer-core.NullDereference) */
 
-/* Pairs worked on at a time: the longest usual row, for buffers on the stack. */
+/* Pairs per block: the longest usual row, for buffers on the stack. */
 enum { MPS__PAIRS = MPS_PAIRS(64) };
 
-/* What rows of an operator see; each uses its own. */
+/* Arguments of the row functions; each uses its own. */
 typedef struct operation {
     mps_stencil s;
     const double *b, *f; /* correction, field */
@@ -39,8 +40,8 @@ MPS_ROW pair pair_at(const int dim, const mps_stencil *s, const double *xi, int6
     return q;
 }
 
-/* `count` pairs of row i: their W/r^2, and what they add to n_i and A_i. Short loops, one thing each: the compiler takes the roots
- * and divisions several at a time. */
+/* `count` pairs of row i: their W/r^2, and their contributions to n_i and A_i. Short loops with one
+ * operation each, so that the compiler vectorises roots and divisions. */
 MPS_ROW void weigh_pairs(const int dim, const mps_stencil *s, int64_t i, const int32_t *col,
                          int count, double *w_r2, double sums[4])
 {
@@ -200,9 +201,10 @@ MPS__LOOP(correction_rows, correction_row, operation)
 
 /* NOLINTEND(clang-analyzer-core.NullDereference) */
 
-/* ---- arguments ------------------------------------------------------------------------------------------------- */
+/* ---- arguments ---- */
 
-/* Where the text of an error goes. The host lies in front, so that a struct cut short still has it. */
+/* Context of error messages. `host` is near the front of the struct, so that a truncated one has
+ * it. */
 static mps__context *told_to(const mps_stencil *s)
 {
     return s && s->struct_size >= offsetof(mps_stencil, host) + sizeof s->host ? s->host : NULL;
@@ -246,9 +248,9 @@ mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil
     return MPS_OK;
 }
 
-/* ---- operators ------------------------------------------------------------------------------------------------- */
+/* ---- operators ---- */
 
-/* All rows of an operator, on the threads of the stencil. */
+/* Run an operator for all particles, on the threads of the stencil. */
 #define RUN(from, operator, ...)                                              \
     mps__loop_run((from)->parallel, &operator##_rows, (from)->dim, (from)->n, \
                   &(operation){.s = *(from), __VA_ARGS__})

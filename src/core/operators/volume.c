@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Volume per particle from a wide, smooth kernel. n/n0 would not do: its kernel is so peaked that an area-preserving
- * stretch of the lattice changes n by several per cent. */
+/* Volume per particle from a wide, smooth kernel. n/n0 is not suitable: its kernel is so peaked
+ * that an area-preserving stretch of the lattice changes n by several per cent. */
 #include "operators.h"
 #include "loop.h"
 #include <math.h>
 #include <mps/operators.h>
 
-/* Pairs worked on at a time. */
+/* Pairs per block. */
 enum { PAIRS = MPS_PAIRS(64) };
 
-/* Kernel at the squared distance r2 < h^2, support h = 1/over. 2-D: Wendland C2. 3-D: (1 - q^2)^3. Support there is 2.1 dp as a rule, so few that
- * the particle itself is a third of a sum of C2, and disordered liquid looks 2 % denser than the lattice; with the broader kernel sums are those of
- * Voronoi volumes to some tenths of a per cent. */
+/* Kernel at the squared distance r2 < h^2, support h = 1/over. 2-D: Wendland C2. 3-D: (1 - q^2)^3.
+ * In 3-D the support is usually 2.1 dp, so small that the particle itself is a third of a sum of
+ * C2, and disordered liquid looks 2 % denser than the lattice; with the broader kernel sums equal
+ * those of Voronoi volumes to some tenths of a per cent. */
 MPS_ROW double wide(const int dim, double r2, double over)
 {
     if (dim == 3) {
@@ -35,7 +36,8 @@ static double wide_lattice(const mps_stencil *t)
     return sum;
 }
 
-/* Kernel sum over all pairs and the particle itself. Short loops, one thing each: the compiler takes several roots at a time. */
+/* Kernel sum over all pairs and the particle itself. Short loops with one operation each, so that
+ * the compiler vectorises the roots. */
 MPS_ROW double wide_sum(const int dim, const mps_stencil *t, int64_t i)
 {
     const double *a = t->x + i * dim, over = 1.0 / t->re;

@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles change ranks, ghosts come, and get the values of their owners. */
+/* Migration of particles between ranks, construction of ghosts, and halo exchange. */
 #include "ghosts.h"
 #include <math.h>
 #include <string.h>
 
-/* Particles whose box is compared with the cuts before each of them is: neighbours in memory are neighbours in space. */
+/* Block of particles whose bounding box is tested before the particles: neighbours in memory are
+ * neighbours in space. */
 enum { BLOCK = 64 };
 
-/* A particle that goes to a rank. */
+/* A particle to be sent to a rank. */
 struct mps__parcel {
     int32_t rank, particle;
 };
@@ -34,7 +35,7 @@ void mps__ghosts_free(mps__ghosts *g)
     mps__ghosts_init(g, g->context, g->ranks, g->particles);
 }
 
-/* ---- packets: all fields of a particle, one behind the other ---- */
+/* ---- packets: all fields of a particle in sequence ---- */
 
 static size_t bytes_of(const mps__field *f)
 {
@@ -64,7 +65,7 @@ void mps__ghosts_unpack(const mps__particles *s, int64_t i, const char *from)
     }
 }
 
-/* The `aside` particles behind the store move from place `from` to place `to`. */
+/* Move the `aside` particles behind the store from index `from` to index `to`. */
 static void move_tail(const mps__particles *s, int64_t aside, int64_t from, int64_t to)
 {
     for (int32_t k = 0; k < s->fields && aside > 0 && from != to; k++) {
@@ -74,12 +75,12 @@ static void move_tail(const mps__particles *s, int64_t aside, int64_t from, int6
     }
 }
 
-/* Append `count` particles from packets in g->in, before those aside. */
+/* Insert `count` particles from packets in g->in before those set aside. */
 static mps_status append(mps__ghosts *g, int64_t count, int64_t aside)
 {
     mps__particles *s = g->particles;
     const size_t bytes = mps__ghosts_packet(s);
-    s->n += aside; /* what is copied to larger arrays */
+    s->n += aside; /* number of particles copied if the arrays grow */
     const mps_status status = mps__particles_reserve(s, count);
     s->n -= aside;
     MPS__TRY(status);
@@ -132,7 +133,7 @@ static mps_status connect_ranks(mps__ghosts *g)
     return MPS_OK;
 }
 
-/* Room in the buffers, of which nothing is kept. */
+/* Allocate the buffers; old contents are lost. */
 static mps_status reserve_buffers(mps__ghosts *g, size_t bytes)
 {
     MPS__TRY(
@@ -141,7 +142,7 @@ static mps_status reserve_buffers(mps__ghosts *g, size_t bytes)
                      1);
 }
 
-/* Packets of all parcels to their ranks; what comes is in g->in. */
+/* Send packets of all parcels; received packets are in g->in. */
 static mps_status send_parcels(mps__ghosts *g)
 {
     const mps__particles *s = g->particles;
@@ -189,7 +190,7 @@ static mps_status find_owners(mps__ghosts *g, const mps__placing *p, int64_t beg
     return mps__ranks_status(r);
 }
 
-/* Divide space by the owned particles begin .. end-1 of each rank. */
+/* Partition space by the owned particles begin .. end-1 of each rank. */
 static mps_status divide(mps__ghosts *g, const mps__placing *p, int64_t begin, int64_t end)
 {
     mps__ranks *r = g->ranks;
@@ -240,7 +241,7 @@ mps_status mps__ghosts_adopt(mps__ghosts *g, const mps__placing *p)
     return find_runs(g);
 }
 
-/* Particles that are on the wrong rank leave, ghosts vanish, and others come. */
+/* Send particles to their new owners, delete the ghosts, and receive particles. */
 static mps_status migrate(mps__ghosts *g, const mps__placing *p, int64_t aside)
 {
     mps__particles *s = g->particles;
@@ -274,7 +275,7 @@ static void widen(double lo[3], double hi[3], const double *X, double reach, int
     }
 }
 
-/* Parcels of particle i to all ranks that own a place within its reach. */
+/* Parcels of particle i to all ranks that own space within its reach. */
 static mps_status add_particle(mps__ghosts *g, int64_t i, const double *X, double reach,
                                int32_t *rank)
 {
@@ -287,7 +288,7 @@ static mps_status add_particle(mps__ghosts *g, int64_t i, const double *X, doubl
     return mps__ranks_status(g->ranks);
 }
 
-/* Parcels of particles begin .. end-1; mostly no other rank is near any of them. */
+/* Parcels of particles begin .. end-1; usually no other rank is near the block. */
 static mps_status add_block(mps__ghosts *g, const mps__placing *p, int64_t begin, int64_t end,
                             int32_t *rank)
 {
@@ -326,8 +327,8 @@ mps_status mps__ghosts_renew(mps__ghosts *g, const mps__placing *p, int64_t asid
 {
     mps__particles *s = g->particles;
     if (!mps__ranks_many(g->ranks)) return MPS_OK;
-    const int64_t generation = s->generation,
-                  solids = s->solids; /* none comes and none goes, seen from all ranks */
+    /* over all ranks, no particle is added or removed */
+    const int64_t generation = s->generation, solids = s->solids;
     if (g->recut) MPS__TRY(divide(g, p, 0, s->n));
     forget_route(g);
     MPS__TRY(migrate(g, p, aside));
@@ -361,7 +362,7 @@ mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order)
     for (int64_t k = 0; k < n; k++) place[order[k]] = (int32_t)k;
     for (int64_t k = 0; k < g->sends; k++) g->send[k] = place[g->send[k]];
     for (int64_t k = 0; k < g->receives; k++) g->receive[k] = place[g->receive[k]];
-    memset(g->ghost, 0, (size_t)n); /* those aside are no ghosts */
+    memset(g->ghost, 0, (size_t)n); /* particles set aside are no ghosts */
     for (int64_t k = 0; k < g->receives; k++) g->ghost[g->receive[k]] = 1;
     g->orders++;
     return find_runs(g);
@@ -394,7 +395,7 @@ void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, i
         rows(argument, begin, end);
         return;
     }
-    while (lo < hi) { /* the first range that ends behind `begin` */
+    while (lo < hi) { /* the first range that ends after `begin` */
         const int64_t middle = lo + (hi - lo) / 2;
         if (g->run[2 * middle + 1] > begin)
             hi = middle;
@@ -410,7 +411,7 @@ void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, i
 
 /* ---- values ---- */
 
-/* Values of array a that go, element by element with those of the others. */
+/* Pack the values of array a, interleaved by element with those of the other arrays. */
 static void pack(const mps__ghosts *g, const mps__shared *a, const char *staged, char *out,
                  size_t bytes)
 {

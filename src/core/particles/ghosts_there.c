@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ghosts at a device: which rows they are, and values of arrays there that go to other ranks and come from them. Only these travel to the host. */
+/* Ghosts on a device: the ghost flags, and the halo exchange of device arrays. Only the packets are
+ * copied to and from the host. */
 #include "ghosts.h"
 #include "loop.h"
 #include <string.h>
@@ -21,7 +22,7 @@ static bool put(mps__device *d, mps__device_block *room, const void *from, int64
     return true;
 }
 
-/* Which rows are ghosts, and places of packets, as they are since the last order. */
+/* Copy the ghost flags and the indices of packets, if particles were reordered since. */
 static mps_status show(mps__ghosts *g, mps__device *d)
 {
     mps__ghosts_there *t = &g->there;
@@ -39,7 +40,7 @@ static mps_status show(mps__ghosts *g, mps__device *d)
 const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d)
 {
     if (!g->ghost || !d) return g->ghost;
-    if (show(g, d) < 0) mps__device_give_up(d); /* no loop would leave them out */
+    if (show(g, d) < 0) mps__device_give_up(d); /* loops would not skip the ghosts */
     return g->there.ghost.data;
 }
 
@@ -47,7 +48,7 @@ typedef struct packets {
     const int32_t *particle; /* of each packet */
     const char *from;
     char *values;
-    size_t bytes; /* of a packet */
+    size_t bytes; /* per packet */
 } packets;
 
 MPS_ROW void unpack_row(const int dim, const packets *f, int64_t k)
@@ -57,7 +58,7 @@ MPS_ROW void unpack_row(const int dim, const packets *f, int64_t k)
 }
 MPS__LOOP_ANY(unpack_rows, unpack_row, packets)
 
-/* Bytes of a packet of the arrays there, before array `end`. */
+/* Bytes of a packet of the device arrays before array `end`. */
 static size_t bytes_there(const mps__shared *shared, int32_t end)
 {
     size_t bytes = 0;
@@ -74,7 +75,7 @@ static mps_status reserve(mps__ghosts *g, mps__device *d, size_t bytes)
                      1);
 }
 
-/* Array a of a list has its packets behind those of the arrays before it. */
+/* Packets of an array follow those of the arrays before it. */
 mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__shared *shared,
                              int32_t count)
 {
@@ -105,7 +106,7 @@ mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *
     return mps__device_status(d);
 }
 
-/* ---- numbers that some particles have ---- */
+/* ---- sparse values ---- */
 
 typedef struct indexed {
     const int32_t *particle, *index;

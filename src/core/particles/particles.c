@@ -5,7 +5,7 @@
 #include <mps/particles.h>
 #include <string.h>
 
-/* A field that will be dropped stays behind a new one. */
+/* A field marked `trails` stays behind a new one. */
 static void keep_last(mps__particles *s)
 {
     if (s->fields < 2) return;
@@ -95,7 +95,7 @@ static size_t stride(const mps__field *f)
     return (size_t)f->components * f->size;
 }
 
-/* New arrays for all fields, or none: the caller swaps them in when all are there. */
+/* Allocate new arrays for all fields, or none: the caller swaps them in. */
 static mps_status new_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FIELDS_MAX])
 {
     for (int32_t k = 0; k < s->fields; k++) {
@@ -189,7 +189,7 @@ int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind)
     return first;
 }
 
-/* Is every particle at its place already? */
+/* Whether the order is the identity. */
 static bool in_order(const mps__particles *s, int64_t count, const int32_t *order)
 {
     if (count != s->n) return false;
@@ -210,7 +210,7 @@ MPS_ROW void gather_row(const gather_fields *f, int64_t i, size_t bytes)
     memcpy(f->to + (size_t)i * bytes, f->from + (size_t)f->order[i] * bytes, bytes);
 }
 
-/* Elements in the new order. A copy of a constant size is an instruction or two, of any other a call. */
+/* Permute elements. A copy of a constant size is inlined, of any other a call. */
 #define GATHER(name, size)                                                    \
     MPS_ROW void name##_row(const int dim, const gather_fields *f, int64_t i) \
     {                                                                         \
@@ -243,7 +243,7 @@ void mps__particles_gather(const mps_parallel *p, void *to, const void *from, in
                         &(gather_fields){to, from, order, bytes});
 }
 
-/* One array through `scratch`, as large as the array. */
+/* Permute one array by way of `scratch`, which is as large as the array. */
 static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
                           const int32_t *order, char *scratch)
 {
@@ -259,13 +259,13 @@ static int64_t count_solids(const mps__particles *s)
     return count;
 }
 
-/* Room for one array of n particles. */
+/* Workspace for one array of n particles. */
 static char *room_to_move(mps__particles *s, int64_t n)
 {
     size_t largest = sizeof(int32_t);
     for (int32_t k = 0; k < s->fields; k++)
         if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
-    /* 0 and 1 may hold the order */
+    /* blocks 0 and 1 may contain the order */
     return mps__scratch_take(s->context, s->scratch, 2, n, largest);
 }
 
@@ -290,7 +290,7 @@ mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_
     s->changes++;
     for (int32_t k = 0; k < s->fields; k++)
         if (!old[k]) permute_field(s, &s->field[k], count, order, scratch);
-    int32_t *place = (int32_t *)(void *)scratch; /* new place of an old one */
+    int32_t *place = (int32_t *)(void *)scratch; /* new index by old index */
     for (int64_t i = 0; i < s->n; i++) place[i] = -1;
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
     for (int64_t i = 0; i < count; i++)

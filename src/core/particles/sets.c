@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts of sets are collected from all ranks, sorted by label and joined; all ranks do the same with the same lists. */
+/* Parts of sets are collected from all ranks, sorted by label and merged; all ranks do this with
+ * the same lists. */
 #include "sets.h"
 #include <stdlib.h>
 
@@ -26,8 +27,9 @@ mps_status mps__sets_add(mps__sets *s, const mps__set *part)
 
 mps_status mps__sets_join(mps__sets *s, int64_t a, int64_t b)
 {
+    /* consecutive pairs mostly repeat */
     if (s->pairs > 0 && s->pair[s->pairs - 1][0] == a && s->pair[s->pairs - 1][1] == b)
-        return MPS_OK; /* mostly the next pair of the same two */
+        return MPS_OK;
     MPS__TRY(mps__grow(s->context, (void **)&s->pair, &s->pair_capacity, s->pairs, s->pairs + 1,
                        sizeof *s->pair));
     s->pair[s->pairs][0] = a;
@@ -60,7 +62,7 @@ static int32_t root_of(int32_t *parent, int32_t k)
     return k;
 }
 
-/* The root of a tree is the part with the least label. */
+/* The representative of a set is the part with the least label. */
 static void join_parts(const mps__sets *s)
 {
     for (int64_t k = 0; k < s->parts; k++) s->set[k] = (int32_t)k;
@@ -71,7 +73,7 @@ static void join_parts(const mps__sets *s)
     }
 }
 
-/* Sets in the order of their labels: a root stands before its other parts. */
+/* Sets in the order of their labels: a representative precedes its other parts. */
 static mps_status list_sets(mps__sets *s)
 {
     MPS__TRY(

@@ -1,24 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Walls do not pull where void can reach. For rows i with a least pressure
+/* Lower bounds of the pressure: walls do not pull where void can reach. For rows i with a bound
  *   p_i >= least_i,   r_i = (A p - b)_i >= 0,   (p_i - least_i) r_i = 0,   elsewhere A p = b,
- * a linear complementarity problem with an M-matrix. Policy iteration solves it: the equation with the pressures of a set of rows held
- * at their least; then rows below their least are held and held rows with r_i < 0 are let go, until the set stays. It begins with the set and
- * the pressures of the last step, so that mostly two solutions are enough: a loose one that chooses the set, and that of the chosen set, which
- * begins there. Holding a row leaves its diagonal and those about it as they are, so that all share the preconditioner of the first.
- * Held rows are pinned in place, A being assembled once: their pairs are moved to the right side, and back after the solution.
- * Each row looks at its own pairs, so that rows may lie on several ranks. */
+ * a linear complementarity problem with an M-matrix, solved by an active-set (policy) iteration:
+ * solve with the pressures of the active rows fixed at their bounds; then activate rows below their
+ * bounds and release active rows with r_i < 0, until the set is unchanged. It starts with the set
+ * and the pressures of the last step, so that usually two solutions are enough: a loose one, and an
+ * accurate one that starts from it. Fixing a row changes neither its diagonal nor those of its
+ * neighbours, so that all solutions share one preconditioner.
+ * The matrix is assembled once: pairs of active rows are moved to the right side in place, and
+ * restored after the solution. Each row modifies only its own entries, so that the rows may be
+ * distributed over ranks. */
 #include "bounds.h"
 #include "loop.h"
 #include <math.h>
 #include <string.h>
 
-/* Solutions of a step at most: what is not settled then is so in the next step. */
+/* Solutions of a step at most: the iteration continues in the next step. */
 enum { SOLVES = 5 };
 
-/* The first solution only has to say which rows are held: its tolerances are so many times those of the others. */
+/* Tolerance factor of the first solution, which only has to determine the active set. */
 static const double LOOSE = 100;
 
-/* Changes of pressures by the acceleration of the tank, likewise. */
+/* Tolerance factor for the change of pressures by the acceleration of the tank. */
 static const double ACCURATE = 1000;
 
 struct mps__bound {
@@ -27,9 +30,9 @@ struct mps__bound {
     bool held;
 };
 
-/* What stood in a place of the matrix, and in the row of its column. */
+/* Saved entry of the matrix, with right side and shift of its row. */
 struct mps__change {
-    int64_t place, row; /* place -1: the row alone */
+    int64_t place, row; /* place: index of the entry, -1: right side and shift alone */
     double rhs, shift;
     float value;
 };
@@ -48,11 +51,12 @@ void mps__bounds_free(mps__bounds *b)
     mps__bounds_init(b, b->context);
 }
 
-/* Rows of components whose level is free are left out: their pressures are known but for a constant. */
+/* Rows of components without a pressure datum are skipped: their pressures are known up to a
+ * constant. */
 static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
                           const mps__ppe_terms *t)
 {
-    const int32_t *component = e->problem.component; /* NULL: none without a level */
+    const int32_t *component = e->problem.component; /* NULL: every component has a datum */
     b->count = 0;
     for (int64_t r = 0; r < e->n; r++) {
         const int64_t i = e->particle[r];
@@ -74,7 +78,8 @@ static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
                                                    place < 0 ? 0 : e->val[place]};
 }
 
-/* Row r as the pinned columns leave it: p = least if it is one of them, otherwise their pressures are known. */
+/* Fix row r: p = least if it is active, otherwise the pressures of its active columns become
+ * known. */
 static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
 {
     const bool own = isfinite(b->pinned[r]);
@@ -96,7 +101,8 @@ static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
     return MPS_OK;
 }
 
-/* Mark the rows that have a pinned column; rows of pinned unknowns tell, and of those of other ranks the rows at the border. */
+/* Mark active rows and rows with an active column: from the active rows by symmetry, and for
+ * columns of other ranks by a search of the own rows. */
 static void mark_rows(mps__bounds *b, const mps__ppe *e)
 {
     if (e->n > 0) memset(b->mark, 0, (size_t)e->n);
@@ -127,7 +133,7 @@ static mps_status pin_rows(mps__bounds *b, mps__ppe *e)
     return MPS_OK;
 }
 
-/* The equation as it was assembled, to the bit. */
+/* Restore the assembled equation, bit by bit. */
 static void let_go(mps__bounds *b, mps__ppe *e)
 {
     while (b->changes > 0) {
@@ -145,7 +151,7 @@ static double residual(const mps__ppe *e, int64_t r)
     return sum;
 }
 
-/* Whether something is so on any rank. */
+/* Logical or over all ranks. */
 static bool on_any_rank(const mps__ppe *e, bool here)
 {
     double any = here;
@@ -153,7 +159,8 @@ static bool on_any_rank(const mps__ppe *e, bool here)
     return any > 0;
 }
 
-/* @param seen  what a solution on a device has told of it @return whether the set has changed */
+/* Update the active set. @param seen  the result of a solver on a device, NaN: none @return whether
+ * the set has changed */
 static bool choose(mps__bounds *b, const mps__ppe *e, double seen)
 {
     bool changed = false;
@@ -189,7 +196,7 @@ static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     return status;
 }
 
-/* Rows with a least pressure. */
+/* Collect the rows with a lower bound. */
 static mps_status begin(mps__bounds *b, mps__ppe *e, const mps_view *s, const mps__ppe_terms *t)
 {
     b->count = 0;
@@ -229,7 +236,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     return status;
 }
 
-/* The slope of the laws at e->p in place of the laws, and back. */
+/* Linearise the laws at e->p (sign 1), or undo it (sign -1). */
 static void make_tangent(mps__ppe *e, double sign)
 {
     for (int64_t r = 0; e->law && r < e->n; r++) {

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Least pressures in an equation on a device: the steps of bounds.c for all rows at once. A row looks whether it is held and which of its
- * columns are; what it changes it keeps beside itself. */
+/* Lower bounds of an equation on a device: the algorithm of bounds.c as loops over rows. A row
+ * tests itself and its columns, and saves what it modifies. */
 #include "bounds.h"
 #include "loop.h"
 #include <math.h>
 
-/* Held, at a pressure that there is. */
+/* Active, with a finite bound. */
 MPS_ROW bool is_pinned(const mps__bound_rows *f, int64_t r)
 {
     return f->held[r] && isfinite(f->least[r]);
 }
 
-/* What other ranks get. */
+/* Values for the halo exchange. */
 MPS_ROW void tell_pinned(const int dim, const mps__bound_rows *f, int64_t r)
 {
     (void)dim;
@@ -19,7 +19,7 @@ MPS_ROW void tell_pinned(const int dim, const mps__bound_rows *f, int64_t r)
 }
 MPS__LOOP_ANY(tell_pinned_rows, tell_pinned, mps__bound_rows)
 
-/* The pressure of a column that is held; NaN: it is not. */
+/* The pressure of an active column; NaN: not active. */
 MPS_ROW double pinned_at(const mps__bound_rows *f, int64_t c)
 {
     if (c >= f->rows) return f->pinned[c];
@@ -65,7 +65,7 @@ MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
 }
 MPS__LOOP_ANY(pin_rows, pin_row, mps__bound_rows)
 
-/* The row as it was assembled, to the bit. */
+/* Restore the assembled row, bit by bit. */
 MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
     (void)dim;
@@ -76,7 +76,7 @@ MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
 }
 MPS__LOOP_ANY(free_rows, free_row, mps__bound_rows)
 
-/* Of the row as it was assembled, whether it is pinned now or not. */
+/* Residual of the assembled row, whether it is modified or not. */
 MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
 {
     const bool kept = f->changed[r];
@@ -86,7 +86,7 @@ MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
     return sum;
 }
 
-/* The next set. The maximum: whether it has changed. */
+/* Next active set. The maximum: whether it has changed. */
 MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, double *changed)
 {
     bool held = false;
@@ -111,7 +111,7 @@ static void run(const mps__bounds *b, const mps__ppe *e, const mps__loop *loop)
     mps__loop_run(e->parallel, loop, MPS__ANY_DIM, e->n, &b->rows);
 }
 
-/* Room for what a row has, in one block: numbers of eight bytes first. */
+/* Allocate the arrays of the rows in one block, 8-byte elements first. */
 static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->entries,

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Components of the pressure equation, and whether each has a level: a row that sees a known pressure, or volume that can change. Nearly always
- * all have one. Then one pass over the entries on all threads is enough: trees of joined rows, whose root is their lowest row. */
+/* Connected components of the pressure equation, and whether each has a pressure datum: a row with
+ * a neighbour of known pressure, or with volume that can change. Nearly always all have one; then
+ * one parallel pass over the entries is enough: a union-find of rows, in which the representative
+ * is the lowest row. */
 #include "levels.h"
 #include "forest.h"
 #include "loop.h"
@@ -12,11 +14,12 @@ typedef struct forest {
     const int32_t *col;
     const double *shift;
     mps__shared_number *parent;
-    mps__shared_number *level; /* of a root: 1 if a row of its tree has a level */
-    double *told;              /* [columns] of rows: that of their tree; NULL: alone */
+    mps__shared_number *level; /* of a representative: 1 if a row of its set has a datum */
+    /* [columns] value of the set of each column's row; NULL: single rank */
+    double *told;
 } forest;
 
-/* Most rows come into the tree of their first column at once. */
+/* Most rows join the set of their first column at once. */
 MPS_ROW void begin_row(const int dim, const forest *f, int64_t r)
 {
     const int64_t first = f->row[r] < f->row[r + 1] ? f->col[f->row[r]] : r;
@@ -30,7 +33,7 @@ MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
 {
     (void)dim;
     for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
-        if (f->col[k] >= f->n) continue; /* of another rank: it may stand anywhere in the row */
+        if (f->col[k] >= f->n) continue; /* column of another rank, at any position in the row */
         if (f->col[k] > r) break;
         if (mps__forest_get(&f->parent[f->col[k]]) != mps__forest_get(&f->parent[r]))
             mps__forest_join(f->parent, (int32_t)r, f->col[k]);
@@ -58,7 +61,8 @@ MPS_ROW void tell_row(const int dim, const forest *f, int64_t r)
 }
 MPS__LOOP_ANY(tell_rows, tell_row, forest)
 
-/* A tree that goes on at another rank has the level of the tree there. The maximum: whether any gets one so. */
+/* A set with a column of another rank takes over the datum of that row's set. The maximum: whether
+ * any set got one. */
 MPS_ROW void hear_row(const int dim, const forest *f, int64_t r, double *any)
 {
     mps__shared_number *level = &f->level[mps__forest_root(f->parent, (int32_t)r)];
@@ -81,7 +85,7 @@ static forest forest_of(const mps__ppe *e)
                     .level = (mps__shared_number *)(void *)e->component};
 }
 
-/* Trees of the rows of this rank. */
+/* Union-find of the rows of this rank. */
 static forest grow_forest(const mps__ppe *e)
 {
     const forest f = forest_of(e);
@@ -91,15 +95,17 @@ static forest grow_forest(const mps__ppe *e)
     return f;
 }
 
-/* In e->component: a row whose component was not looked at yet. In e->queue: behind the last row of a component. */
+/* In e->component: a row whose component is not visited yet. In e->queue: end of a component's
+ * list. */
 enum { NEW = -2, END = -1 };
 
-/* From trees to chains: e->queue becomes the next row of the same component, by ascending rows. */
+/* From sets to linked lists: e->queue becomes the next row of the same component, in ascending
+ * order. */
 static void chain_rows(mps__ppe *e)
 {
     int32_t *root = e->queue, *next = e->queue, *last = e->component;
     for (int32_t r = 0; r < e->n; r++) {
-        root[r] = root[root[r]]; /* rows further up have their root already */
+        root[r] = root[root[r]]; /* lower rows already have their representatives */
         last[r] = NEW;
     }
     for (int32_t r = 0; r < e->n; r++) {
@@ -114,10 +120,10 @@ static void chain_rows(mps__ppe *e)
     }
 }
 
-/* Flag of a set: something fixes its pressures. */
+/* Flag of a set: it has a pressure datum. */
 enum { LEVEL = 1 };
 
-/* A component from its first row on, as far as it is here. */
+/* The part of a component on this rank, from its first row on. */
 static mps__set part_of(const mps__ppe *e, const int64_t *id, int32_t first)
 {
     enum { BLOCK = 256 };
@@ -138,7 +144,7 @@ static mps__set part_of(const mps__ppe *e, const int64_t *id, int32_t first)
     return part;
 }
 
-/* List the components as far as they are here; rows get the place in the list. */
+/* List the parts of this rank; e->component becomes the index in the list. */
 static mps_status list_parts(mps__ppe *e, const int64_t *id)
 {
     mps__sets_begin(&e->sets, e->context);
@@ -151,7 +157,7 @@ static mps_status list_parts(mps__ppe *e, const int64_t *id)
     return MPS_OK;
 }
 
-/* Join what the border of ranks parts. Labels are ids, which doubles hold. */
+/* Join parts of different ranks. Labels are ids, which doubles represent exactly. */
 static mps_status join_border(mps__ppe *e, double *label)
 {
     if (e->ranks.share(e->ranks.host, label)) return mps__ranks_status(e->ghosts->ranks);
@@ -162,7 +168,7 @@ static mps_status join_border(mps__ppe *e, double *label)
     return MPS_OK;
 }
 
-/* Of two sets as large the first one, with the least label, counts as the largest. */
+/* Of sets of equal size the first one, with the least label, counts as the largest. */
 static bool largest_is_free(const mps__sets *s)
 {
     int64_t largest = 0;
@@ -171,7 +177,8 @@ static bool largest_is_free(const mps__sets *s)
     return s->count > 0 && !(s->list[largest].flags & LEVEL);
 }
 
-/* Sets without a level get numbers. Rows of them lose the mean of the right side. Returns how many there are. */
+/* Number the sets without a datum, and subtract the mean from their right sides. Returns their
+ * number. */
 static int32_t balance(mps__ppe *e, const double *label)
 {
     int32_t singular = 0;
@@ -199,7 +206,8 @@ void mps__levels_look(mps__ppe *e)
     e->lacking = lacking > 0;
 }
 
-/* On many ranks at a device: levels go from tree to tree until no other tree gets one. @param lacking  out: above -INFINITY where one is left */
+/* On many ranks with a device: propagate the flags between ranks until no further set gets a datum.
+ * @param lacking  out: above -INFINITY if a set without a datum remains */
 static mps_status spread_levels(mps__ppe *e, double *lacking)
 {
     mps__ranks *ranks = e->ghosts->ranks;

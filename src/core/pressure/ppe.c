@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet neighbours moved to the right side. */
+/* Assembly of the pressure equation, W22 (10)(16)(17): a row for every unknown, Dirichlet
+ * neighbours moved to the right side. W22: Wen, Zhao & Wan 2022. */
 #include "ppe.h"
 #include "loop.h"
 #include "scan.h"
@@ -20,27 +21,30 @@ void mps__ppe_free(mps__ppe *e)
     mps__ppe_init(e, e->context);
 }
 
-/* What rows of the matrix see: terms of the equation by particle, and the arrays that they become by unknown. */
+/* Arguments of the row functions of the matrix: terms of the equation by particle, arrays of the
+ * equation by unknown. */
 typedef struct assembly {
     mps_stencil pairs;
     mps_flux flux;
     const int32_t *kind, *region, *condition;
     const double *density, *source, *shift, *value, *gas, *law;
-    const uint8_t *ghost; /* NULL: alone */
+    const uint8_t *ghost; /* NULL: single rank */
     double c;             /* 2D/(n0 lambda) */
     double surface;       /* weight of pairs with one particle on the surface */
     double gain;
     const int32_t *unknown, *particle;
-    const int64_t *
-        unknowns; /* NULL: the loop has as many rows; else how many there are, with those of OTHERS */
+    /* NULL: the loop has exactly one iteration a row; else the number of unknowns, see OTHERS */
+    const int64_t *unknowns;
     int64_t *row;
     int32_t *col;
     float *val;
-    double *diagonal, *rhs, *row_shift, *row_gas, *row_law; /* the last two NULL: all are linear */
-    double *moments;                                        /* NULL: not wanted */
+    /* the last two NULL: all rows are linear */
+    double *diagonal, *rhs, *row_shift, *row_gas, *row_law;
+    double *moments; /* NULL: not requested */
 } assembly;
 
-/* Full flux of a linear pressure through the row below a flat surface, over that of the pairs the surface leaves. */
+/* Flux of a linear pressure through the row below a flat surface: the full sum, over the sum
+ * without the pairs beyond the surface. */
 static double complete_flux(const mps_stencil *t)
 {
     const int reach = (int)(t->re / t->dp) + 1, depth = t->dim == 3 ? reach : 0;
@@ -56,7 +60,8 @@ static double complete_flux(const mps_stencil *t)
     return full / left;
 }
 
-/* Weight of a pair by what its particles are; 0: it does not take part. An unknown is not on the surface. */
+/* Weight of a pair by the kinds and conditions of its particles; 0: no contribution. Unknowns are
+ * not on the surface. */
 static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     if (a->unknown[j] < 0 && a->condition[j] != MPS_ROW_FIXED) return 0.0;
@@ -71,7 +76,7 @@ static inline bool is_unknown(const assembly *a, int64_t i)
            a->condition[i] != MPS_ROW_FIXED;
 }
 
-/* A block of scratch where the equation is. */
+/* A workspace block in the memory space of the equation. */
 static void *take(mps__ppe *e, int32_t block, int64_t count, size_t size)
 {
     return e->device ? mps__device_fit(e->device, &e->there[block], (size_t)count * size)
@@ -92,7 +97,8 @@ static int32_t *carve_numbers(char **room, int64_t count)
     return array;
 }
 
-/* Arrays of the rows, all in one block: those of eight bytes first. Row starts have room to be summed. */
+/* Allocate the arrays of the rows in one block, 8-byte elements first; row starts include the
+ * workspace of the scan. */
 mps_status mps__ppe_reserve_rows(mps__ppe *e, int32_t dim)
 {
     const bool spared = e->spare && !e->device;
@@ -131,10 +137,11 @@ mps_status mps__ppe_reserve_laws(mps__ppe *e)
     return MPS_OK;
 }
 
-/* Unknowns of this rank, and of others so many times: one number counts both. */
+/* Weight of other ranks' unknowns in a number that counts both: unknowns of this rank are counted
+ * by 1. */
 #define OTHERS (INT64_C(1) << 32)
 
-/* Sums of these up to a particle are its number. */
+/* The prefix sum of these is a particle's number. */
 typedef struct numbering {
     assembly terms;
     int64_t *number; /* [particles] */
@@ -150,7 +157,7 @@ MPS_ROW void mark_row(const int dim, const numbering *f, int64_t i)
 }
 MPS__LOOP_ANY(mark_rows, mark_row, numbering)
 
-/* Unknowns in the order of the particles, behind them those of other ranks. */
+/* Unknowns in the order of the particles, then those of other ranks. */
 MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
 {
     const assembly *a = &f->terms;
@@ -163,7 +170,7 @@ MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
 }
 MPS__LOOP_ANY(number_rows, number_row, numbering)
 
-/* Entries of row r beside the diagonal. */
+/* Off-diagonal entries of row r. */
 MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 {
     const mps_stencil *pairs = &a->pairs;
@@ -183,7 +190,7 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 }
 MPS__LOOP_ANY(count_rows, count_row, assembly)
 
-/* Unknowns, row starts and the entries of all, on the host. */
+/* Unknowns, row starts and number of entries, on the host. */
 static mps_status count_here(mps__ppe *e, const mps_view *s, assembly *a)
 {
     const mps_parallel *parallel = e->parallel;
@@ -200,14 +207,14 @@ static mps_status count_here(mps__ppe *e, const mps_view *s, assembly *a)
     a->particle = f.particle = e->particle;
     a->row = e->row;
     mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
-    e->row[0] = 0; /* also where there is no row */
+    e->row[0] = 0; /* also without rows */
     mps__loop_run(parallel, &count_rows, s->dim, e->n, a);
     mps__scan(parallel, e->row + 1, e->n);
     e->entries = e->n > 0 ? e->row[e->n] : 0;
     return MPS_OK;
 }
 
-/* ---- the same on a device: the host waits once for all that it has to know ---- */
+/* ---- counting on a device: the host waits once for all results ---- */
 
 MPS_ROW bool has_least(const assembly *a, int64_t i)
 {
@@ -215,7 +222,7 @@ MPS_ROW bool has_least(const assembly *a, int64_t i)
 }
 MPS__FIRST(bounded_rows, has_least, assembly)
 
-/* What is counted before there are arrays of the right size. */
+/* Counts in provisional arrays, before the final sizes are known. */
 typedef struct counting {
     int64_t particles, rows, columns;
     const int64_t *number, *row;
@@ -233,7 +240,7 @@ MPS_ROW void tell_row(const int dim, const counting *f, int64_t i)
 }
 MPS__LOOP_ANY(tell_rows, tell_row, counting)
 
-/* To their places among the arrays of the rows. */
+/* Copy to the arrays of the rows. */
 MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
 {
     (void)dim;
@@ -243,7 +250,7 @@ MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
 }
 MPS__LOOP_ANY(settle_rows, settle_row, counting)
 
-/* Room for as many rows as there are particles. */
+/* Allocate for as many rows as there are particles. */
 static mps_status reserve_counting(mps__ppe *e, numbering *f, assembly *a, counting *c)
 {
     const int64_t n = e->particles, sums = mps__scan_room(n);
@@ -295,7 +302,7 @@ static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
     return MPS_OK;
 }
 
-/* Columns in the order of their particles: far rows are two sorted runs, for which insertion is short work. */
+/* Sort columns by particle: far rows are two sorted runs, for which insertion sort is cheap. */
 static void sort_row(const int32_t *particle, int32_t *col, float *val, int64_t n)
 {
     for (int64_t k = 1; k < n; k++) {
@@ -330,7 +337,7 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
         const mps_pair q = mps_stencil_pair_dim(dim, pairs, i, k);
         const double rho = mps_flux_density(flux, i, q.j);
         const float entry = (float)(a->c * factor * q.w /
-                                    rho); /* the same from both sides, and in the diagonal */
+                                    rho); /* symmetric; also in the diagonal */
         const double kij = (double)entry;
         rhs -= kij * (rho * mps_flux_body(flux, dim, i, q.j, q.d) - mps_flux_jump(flux, i, q.j));
         for (int d = 0; d < dim && a->moments; d++) moment[d] += kij * rho * q.d[d];
@@ -346,7 +353,7 @@ MPS_ROW void fill_row(const int dim, const assembly *a, int64_t r)
         col[count] = column;
         val[count++] = -entry;
     }
-    if (coupling + shift == 0) { /* no pair: p = 0 */
+    if (coupling + shift == 0) { /* isolated: p = 0 */
         shift = a->c / a->density[i];
         rhs = 0;
     }
@@ -389,7 +396,7 @@ static assembly assembly_of(const mps__ppe *e, const mps_view *s, const mps__ppe
                       .gain = t->equation.gain};
 }
 
-/* The arrays that rows write, once there is room for them. */
+/* Set the arrays that the row functions write, after allocation. */
 static void see_rows(assembly *a, const mps__ppe *e)
 {
     a->row = e->row;
@@ -403,7 +410,7 @@ static void see_rows(assembly *a, const mps__ppe *e)
     a->moments = e->moments && e->device ? e->there[MPS__PPE_MOMENTS].data : e->moments;
 }
 
-/* Room beside the matrix, where it is wanted. */
+/* Allocate the optional arrays. */
 static mps_status reserve_extras(mps__ppe *e, const mps_view *s, const assembly *a, bool linear)
 {
     e->gas = e->law = NULL;

@@ -13,18 +13,19 @@ typedef struct mps__equation {
     double wall_factor, gain;
 } mps__equation;
 
-/* What models say of the equation: its scalars, the fluxes of its pairs, and its channels. */
+/* Terms of the equation set by models: its scalars, the fluxes of its pairs, and its channels. */
 typedef struct mps__ppe_terms {
     mps__equation equation;
     const mps_flux *flux;
     const int32_t *region;
-    const double *density, *pressure; /* [n] those before the solution */
+    const double *density, *pressure; /* [n] before the solution */
     double *source, *shift, *value, *gas, *law;
     int32_t *condition;
-    bool linear; /* no row has the law of a gas */
+    bool linear; /* no row has a gas law */
 } mps__ppe_terms;
 
-/* Blocks of scratch; levels.c and ppe_ranks.c take two of them, a device alone has the last three. */
+/* Workspace blocks; levels.c and ppe_ranks.c use two of them, the last three are for a device
+ * only. */
 enum {
     MPS__PPE_VALUES,
     MPS__PPE_COLUMNS,
@@ -38,59 +39,62 @@ enum {
     MPS__PPE_BLOCKS
 };
 
-/* What a device has counted of an equation. */
+/* Counts of an equation, in device memory. */
 typedef struct mps__ppe_counts {
     int64_t unknowns, entries;
-    double bounded,
-        lacking; /* above -INFINITY: a row has a least pressure, a component lacks a level */
+    /* above -INFINITY: a row has a lower bound; a component lacks a pressure datum */
+    double bounded, lacking;
 } mps__ppe_counts;
 
-/* The equation is assembled where the loops over it run. On a device all of its arrays are there, until it comes to the host. */
+/* The equation is assembled in the memory space of the loops. On a device all of its arrays are
+ * there, until mps__ppe_come() copies it to the host. */
 typedef struct mps__ppe {
     mps__context *context;
-    mps__device *device; /* that has the arrays; NULL: they are on the host */
+    mps__device *device; /* that has the arrays; NULL: the host */
     mps__device_block there[MPS__PPE_BLOCKS];
-    /* after mps__ppe_come(): the device, rows of the particles and pressures there */
+    /* after mps__ppe_come(): the device, with its rows of the particles and pressures */
     mps__device *left;
     int32_t *unknown_there;
     double *p_there;
-    const mps_parallel *parallel; /* of the loops that made them */
-    mps__scratch own,
-        *scratch; /* where all arrays are: its own, or one shared with others. They last until these take it again */
-    double *spare,
-        *spare_x; /* NULL, or room [3 particles], [particles*dim] for what mps__ppe_note() writes */
-    mps__ghosts *ghosts; /* NULL: alone */
-    /* on many ranks: who owns places of the lab */
+    const mps_parallel *parallel; /* of the assembly loops */
+    /* memory of all arrays: own, or shared with others; valid until its next use */
+    mps__scratch own, *scratch;
+    /* NULL, or buffers [3 particles], [particles*dim] for the results of mps__ppe_note() */
+    double *spare, *spare_x;
+    mps__ghosts *ghosts; /* NULL: single rank */
+    /* on many ranks: owners of positions in the lab */
     mps_status (*owner)(void *world, int64_t m, const double *x, int32_t *rank);
     void *world;     /* its first argument */
     int64_t n;       /* unknowns of the last assembly */
-    int64_t columns; /* and those of other ranks that they look at, behind them */
+    int64_t columns; /* unknowns, then those of other ranks in their rows */
     int64_t entries; /* of the matrix */
     int64_t particles;
-    /* on a device: what it has counted, and whether a row has a least pressure */
+    /* on a device: its counts, and whether a row has a lower bound */
     mps__ppe_counts *counts_there;
     bool bounded;
     int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
     int32_t *particle; /* [columns] particle of a row or a column */
-    int64_t *row;      /* [n+1] CSR beside the diagonal */
+    int64_t *row;      /* [n+1] CSR without the diagonal */
     int32_t *col;
     float *val;
     double *diagonal, *rhs, *shift, *weight;
-    double *x;         /* [columns*dim] places less `moved`: solvers do not see a uniform motion */
+    /* [columns*dim] positions minus `moved`: solvers are independent of a uniform motion */
+    double *x;
     double moved[3];   /* displacement of the tank at the beginning of the step */
     double *p;         /* [columns] */
     double *gas, *law; /* NULL: all rows are linear */
-    /* [n*dim], room that mps__ppe_fill() is given for S_i = sum_j k_ij rho_ij r_ij of each row; NULL: it is not wanted. Where the equation has
-     * the body term, an acceleration a of the tank adds a.S_i to the right side, and an angular acceleration o about a point c adds
-     * o.((x_i - c) x S_i), as (m x r_ij) of the middle m of a pair is (x_i x r_ij). */
+    /* [n*dim] buffer in which mps__ppe_fill() stores S_i = sum_j k_ij rho_ij r_ij of each row;
+     * NULL: not requested. If the equation has the body term, an acceleration a of the tank adds
+     * a.S_i to the right side, and an angular acceleration o about a point c adds o.((x_i - c) x
+     * S_i), as m x r_ij = x_i x r_ij for the midpoint m of a pair. */
     double *moments;
-    bool lacking;       /* a component here or on another rank has no level */
-    int32_t *component; /* scratch unless there is one without a level: problem.component */
-    bool level_free;    /* the largest component has no level */
-    int32_t *queue;     /* [n] scratch */
+    bool lacking;       /* a component of any rank has no pressure datum */
+    int32_t *component; /* workspace unless a component lacks a datum: then problem.component */
+    bool level_free;    /* the largest component has no datum */
+    int32_t *queue;     /* [n] workspace */
     int32_t *order;     /* on many ranks [columns] in the order of the particles */
     mps_ppe_problem problem;
-    mps_ppe_ranks ranks; /* its entry `ranks` */
+    mps_ppe_ranks ranks; /* its member `ranks` */
     mps__sets sets;      /* components of the matrix */
 } mps__ppe;
 
@@ -102,15 +106,16 @@ static inline int64_t mps__ppe_rows(const mps__ppe *e)
 
 void mps__ppe_init(mps__ppe *e, mps__context *context);
 void mps__ppe_free(mps__ppe *e);
-/* Build a row for every unknown. MPS_E_NOMEM, MPS_E_PLUGIN: of a device */
+/* Assemble a row for every unknown. MPS_E_NOMEM, MPS_E_PLUGIN: of a device */
 mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
-/* Then what an unknown is beside its row, with the old pressures as the first guess. On the host e->spare and e->spare_x take it. Where a
- * component lacks a level, an equation on a device has to come to the host for mps__ppe_close(): a solver there looks for it before it begins
+/* Then set the other arrays of the unknowns, with the old pressures as first guess; on the host in
+ * e->spare and e->spare_x. If a component lacks a datum, an equation on a device must be copied to
+ * the host for mps__ppe_close(): a solver on the device tests this before it begins
  * (mps__pcg_hint), others have to wait (levels.h). */
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
-/* Make an equation that lacks a level solvable; on the host. */
+/* Make an equation that lacks a datum solvable; on the host. */
 mps_status mps__ppe_close(mps__ppe *e, const mps_view *s);
-/* What mps__ppe_note() says of ranks; order of the columns, on the host. ppe_ranks.c */
+/* Set e->ranks for mps__ppe_note(); order of the columns, on the host. ppe_ranks.c */
 mps_status mps__ppe_ranks_set(mps__ppe *e);
 void mps__ppe_ranks_order(mps__ppe *e);
 /* Pressures of all particles from the solution e->p. */
@@ -118,20 +123,20 @@ void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms
 
 /* ---- an equation on a device (ppe_device.c) ---- */
 
-/* All arrays are on the host from now on, */
+/* Copy all arrays to the host, where they are valid from now on; */
 mps_status mps__ppe_come(mps__ppe *e);
-/* and the pressures on the device again. */
+/* copy the pressures back to the device. */
 mps_status mps__ppe_go(mps__ppe *e);
-/* Give back what is there; before the device is detached. */
+/* Release the device memory; before the device is detached. */
 void mps__ppe_leave(mps__ppe *e, mps__device *d);
 
-/* ---- for the two files ---- */
+/* ---- shared by ppe.c and ppe_device.c ---- */
 
-/* Room for the rows, e->n and e->columns being known, for entries of the matrix, and for laws. */
+/* Allocate rows for known e->n and e->columns, entries of the matrix, and laws. */
 mps_status mps__ppe_reserve_rows(mps__ppe *e, int32_t dim);
 mps_status mps__ppe_reserve_entries(mps__ppe *e);
 mps_status mps__ppe_reserve_laws(mps__ppe *e);
-/* The problem sees the arrays of the equation. */
+/* Let the problem point to the arrays of the equation. */
 void mps__ppe_point(mps_ppe_problem *problem, const mps__ppe *e);
 
 #endif

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pressure equation of a device on the host: for what has no loops there. */
+/* Copy of a device's pressure equation on the host, for functions without device loops. */
 #include "ppe.h"
 
-/* The equation with room for all of its arrays on the host, where they lie alike. Nothing of it is copied yet. */
+/* Allocate the same arrays on the host, in the same layout; nothing is copied yet. */
 static mps_status reserve_here(const mps__ppe *e, mps__ppe *here)
 {
     *here = *e;
@@ -13,7 +13,7 @@ static mps_status reserve_here(const mps__ppe *e, mps__ppe *here)
     return e->law ? mps__ppe_reserve_laws(here) : MPS_OK;
 }
 
-/* What stands before the end of an array of the rows. */
+/* Copy the arrays of the rows up to the address `end`. */
 static void fetch_rows(const mps__ppe *e, const mps__ppe *here, const void *end)
 {
     mps__device_download(e->device, here->diagonal, e->diagonal,

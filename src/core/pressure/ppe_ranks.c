@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pressure equation on many ranks: what solvers call to exchange and to add up. */
+/* The pressure equation on many ranks: halo exchange and reductions for solvers. */
 #include "ppe.h"
 #include "loop.h"
 
@@ -7,7 +7,7 @@ static int share_columns(void *host, double *x)
 {
     const mps__ppe *e = host;
     const mps_status status = mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x);
-    /* tell the others at once: the next calls of this rank differ from theirs */
+    /* inform the other ranks at once: the next calls of this rank differ from theirs */
     mps__ranks_tell(e->ghosts->ranks, status);
     return status < 0;
 }
@@ -55,15 +55,15 @@ static int find_owners(void *host, int64_t m, const double *x, int32_t *rank)
     return e->owner(e->world, m, x, rank) < 0;
 }
 
-/* What a loop over columns of a device sees. */
+/* Arguments of a loop over columns on a device. */
 typedef struct ordering {
     int64_t n, columns;
     const int32_t *particle;
     int32_t *order;
 } ordering;
 
-/* Own columns are ascending, and so are those of other ranks. A column stands behind those of its
- * kind before it and behind those of the other kind with a lower particle. */
+/* Own columns are ascending, and so are those of other ranks. The index of a column is its position
+ * among its own kind plus the number of columns of the other kind with a lower particle. */
 MPS_ROW void order_row(const int dim, const ordering *f, int64_t k)
 {
     const bool own = k < f->n;

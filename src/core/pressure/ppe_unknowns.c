@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an unknown of the pressure equation is beside its row: place, weight, first guess; and what its solution is for particles. */
+/* Arrays of the unknowns besides the matrix: position, weight, first guess; and the pressures of
+ * the particles from the solution. */
 #include "ppe.h"
 #include "levels.h"
 #include "loop.h"
 #include <string.h>
 
-/* Also of columns of other ranks. */
+/* Includes columns of other ranks. */
 typedef struct notes {
-    const double *place, *pressure; /* of particles */
+    const double *place, *pressure; /* by particle */
     const int32_t *particle;
     int64_t rows;
     double dt2;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Registry of pressure solvers and preconditioners, and the solution with the pair in use. */
+/* Registry of pressure solvers and preconditioners, and the solution with the selected pair. */
 #include "solvers.h"
 #include "loop.h"
 #include "ppe/builtin.h"
@@ -22,7 +22,7 @@ static int find(char (*names)[MPS__NAME_SIZE], int count, const char *name)
     return -1;
 }
 
-/* MPS_E_NAME with the nearest of the known names; `extra` is one that is in no table, or NULL. */
+/* MPS_E_NAME with the nearest known name; `extra` is a name that is in no table, or NULL. */
 static mps_status unknown(mps__context *c, const char *what, char (*names)[MPS__NAME_SIZE],
                           int count, const char *extra, const char *name)
 {
@@ -181,7 +181,7 @@ mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 
 void mps__solvers_free(mps__solvers *s)
 {
-    if (s->context) discard(s); /* else nothing was made yet */
+    if (s->context) discard(s); /* else nothing was allocated */
 }
 
 /* ---- limits ---- */
@@ -241,7 +241,7 @@ static mps_status status_of(int32_t reason)
     }
 }
 
-/* A plug-in's word is not taken for its residual. */
+/* The residual that a plug-in reports is verified. */
 static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p,
                          mps_ppe_result *result)
 {
@@ -254,7 +254,8 @@ static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const 
     return MPS_W_NOT_CONVERGED;
 }
 
-/* The preconditioner in use behind another table: its set-up is left out where that of a matrix nearly the same is there. */
+/* Wrapper of the selected preconditioner: skips the set-up if that of a nearly equal matrix is
+ * available. */
 static int setup_unless_ready(void *self, const mps_ppe_problem *problem)
 {
     mps__solvers *s = self;
@@ -270,7 +271,7 @@ static int apply_in_use(void *self, const double *r, double *z)
     return s->pc->apply(s->pc_self, r, z);
 }
 
-/* One solution. A plug-in may report anything: its numbers are brought into their ranges. */
+/* One solution. The numbers that a plug-in reports are clamped to their ranges. */
 static void run_solver(const mps__solvers *s, const mps_ppe_problem *problem,
                        const mps_preconditioner_ops *pc, void *pc_self, double *p,
                        mps_ppe_result *result)
@@ -283,7 +284,8 @@ static void run_solver(const mps__solvers *s, const mps_ppe_problem *problem,
     if (!(result->setup_seconds >= 0) || isinf(result->setup_seconds)) result->setup_seconds = 0;
 }
 
-/* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: where it fails jacobi solves again. */
+/* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: if it fails,
+ * solve again with jacobi. */
 void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                       mps_ppe_result *result)
 {
@@ -317,7 +319,7 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
     return mps__solvers_solve_series(s, problem, &(mps__effort){.looser = 1}, p, result);
 }
 
-/* What a solution has come to, in words. */
+/* Error or warning text of a solution. */
 static mps_status tell(const mps__solvers *s, const mps_ppe_problem *problem,
                        const mps_ppe_result *result, mps_status status)
 {
@@ -349,9 +351,9 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         mps__solvers_run(s, &limited, p, result);
     if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
-    /* before the sum over all ranks: the others are in another call */
+    /* before the reduction over all ranks: they are in another call */
     if (result->reason == MPS_PPE_NOMEM) return tell(s, &limited, result, status);
-    /* of a residual that is finite all pressures are */
+    /* a finite residual implies finite pressures */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
                                                       : !mps__finite(p, problem->n);
     mps_ppe_total(problem, &(mps_exact_values){.maxima = 1, .maximum = &poison});
@@ -376,7 +378,7 @@ mps_status mps_ppe_result_init(mps_ppe_result *result, size_t size)
 
 double mps_ppe_law(double law, double p, double *slope)
 {
-    static const double least = 0.01; /* of 1 + p/P that the logarithm is used for */
+    static const double least = 0.01; /* of 1 + p/P, down to which the logarithm is used */
     if (!(law > 0)) {
         if (slope) *slope = 1;
         return p;
@@ -386,7 +388,7 @@ double mps_ppe_law(double law, double p, double *slope)
     return law * (mps_log(used) + (share - used) / used);
 }
 
-/* What travels in one message. */
+/* Payload of one reduction message. */
 typedef struct total {
     int32_t sums, maxima;
     mps_exact sum[4];
@@ -409,7 +411,7 @@ int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values
     for (int32_t k = 0; k < t.sums; k++) t.sum[k] = values->sum[k];
     for (int32_t k = 0; k < t.maxima; k++) t.maximum[k] = values->maximum[k];
     const int failed = mps_ppe_reduce(problem, 1, sizeof t, &t, add_total);
-    /* not t.sums: a rank that runs out of memory in its solver may be in another total */
+    /* not t.sums: a rank that runs out of memory in its solver may be in another reduction */
     for (int32_t k = 0; k < values->sums; k++) values->sum[k] = t.sum[k];
     for (int32_t k = 0; k < values->maxima; k++) values->maximum[k] = t.maximum[k];
     return failed;
@@ -420,7 +422,7 @@ static bool has_law(const mps_ppe_problem *problem)
     return problem->struct_size >= sizeof *problem && problem->law;
 }
 
-/* What rows of the check see: those of the problem. */
+/* Arguments of the check's row functions: those of the problem. */
 typedef struct check {
     const int64_t *row;
     const int32_t *col;
@@ -430,7 +432,8 @@ typedef struct check {
     double *r;
 } check;
 
-/* Squares of the residual and of the right side. No comparison finds a NaN the larger one, so it has a maximum of its own, POISON. */
+/* Squares of the residual and of the right side. A NaN loses every comparison, so it has a maximum
+ * of its own, POISON. */
 enum { SQUARES, RHS_SQUARES, SUMS };
 enum { LARGEST, POISON, MAXIMA };
 

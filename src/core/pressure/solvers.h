@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which pressure solvers and preconditioners there are, and the pair in use. */
+/* Available pressure solvers and preconditioners, and the selected pair. */
 #ifndef MPS_CORE_SOLVERS_H
 #define MPS_CORE_SOLVERS_H
 
@@ -15,49 +15,49 @@ typedef struct mps__solvers {
     mps__context *context;
     mps__solver_log log; /* of the built-in solvers */
     int32_t solvers, preconditioners;
-    int32_t built_in; /* the first ones, which check their own results */
+    int32_t built_in; /* number of built-in solvers, which come first and check their own results */
     mps_solver_ops solver[MPS__SOLVERS_KNOWN];
     mps_preconditioner_ops preconditioner[MPS__SOLVERS_KNOWN];
     char solver_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     char preconditioner_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
     /* default preconditioner of each solver */
     char default_name[MPS__SOLVERS_KNOWN][MPS__NAME_SIZE];
-    const mps_solver_ops *use;        /* in use */
-    const mps_preconditioner_ops *pc; /* in use, or NULL */
+    const mps_solver_ops *use;        /* selected */
+    const mps_preconditioner_ops *pc; /* selected, or NULL */
     void *use_self, *pc_self;
-    /* of the preconditioner that steps in for one that fails, made when it is needed; NULL
-     * before */
+    /* of the fallback preconditioner, created on first use; NULL before */
     void *spare_self;
     mps_solver_limits limits;
-    bool again; /* of the present call's effort */
+    bool again; /* mps__effort.again of the present call */
     bool ready; /* the preconditioner is set up for the present series */
-    /* of the step in progress; NULL: there is none. Solutions that can be found there are */
+    /* of the step in progress; NULL: none. Used for solutions with device loops */
     mps__device *device;
-    mps__device_block room; /* of equations that are sent there */
-    bool sent;              /* it holds the arrays that all solutions of the present series share */
-    mps__pcg_hint hint;     /* for solutions there */
+    mps__device_block room; /* for equations copied to the device */
+    /* it contains the arrays that all solutions of the present series share */
+    bool sent;
+    mps__pcg_hint hint; /* for solutions on the device */
 } mps__solvers;
 
-/* How one matrix of a series is solved. */
+/* Parameters of one solution in a series. */
 typedef struct mps__effort {
     double looser; /* factor of the tolerances, >= 1 */
-    /* not the first: it has the rows and the diagonal of the one before, whose preconditioner is
-     * kept */
+    /* not the first: rows and diagonal are those of the previous one, whose preconditioner is
+     * reused */
     bool again;
 } mps__effort;
 
-/* Registers the built-ins, uses sundials.pcg. */
+/* Registers the built-ins, selects sundials.pcg. */
 mps_status mps__solvers_init(mps__solvers *s, mps__context *context);
 void mps__solvers_free(mps__solvers *s);
 mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops);
 mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preconditioner_ops *ops);
 mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *preconditioner);
 mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *limits);
-/* Solve with the pair in use, to the limits of `s` whatever `problem` says about them. MPS_OK, MPS_W_NOT_CONVERGED, or
- * MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
+/* Solve with the selected pair, to the limits of `s`, not those of `problem`. MPS_OK,
+ * MPS_W_NOT_CONVERGED, or MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                               mps_ppe_result *result);
-/* The text of the solution: with the pair in use, and with jacobi if auxgrid fails. */
+/* The solution itself: with the selected pair, and with jacobi if auxgrid fails. */
 void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                       mps_ppe_result *result);
 mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
@@ -65,13 +65,15 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
 
 /* ---- on a device (solvers_device.c) ---- */
 
-/* Whether solver and preconditioner have loops there; whether an equation is solved there. */
+/* Whether solver and preconditioner have device loops; whether this equation is solved on the
+ * device. */
 bool mps__solvers_known_there(const mps__solvers *s);
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
-/* Solve it there. Its arrays and `p` are where its parallel-for runs: on the host, or there already. MPS_E_NOMEM, MPS_E_PLUGIN */
+/* Solve on the device. The arrays and `p` are in the memory space of the problem's parallel-for:
+ * host or device. MPS_E_NOMEM, MPS_E_PLUGIN */
 mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                                     mps_ppe_result *result);
-/* Give back what is there; before the device is detached. */
+/* Release the device memory; before the device is detached. */
 void mps__solvers_leave(mps__solvers *s, mps__device *d);
 
 #endif

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The solution on a device. An equation of the host goes there, and the pressures come back. */
+/* Solution on a device. An equation on the host is copied to it, and the pressures are copied
+ * back. */
 #include "solvers.h"
 
 enum { ROW, COL, POSITION, SHIFT, VAL, DIAGONAL, RHS, WEIGHT, PRESSURE, ARRAYS };
 
-/* An array of the equation. `constant`: no solution of a series changes it. bounds.c changes values, diagonal, right side and shift, in
- * place; so a new array is not constant unless it says so. */
+/* An array of the equation. `constant`: the same in all solutions of a series. bounds.c changes
+ * values, diagonal, right side and shift in place; so an array is not constant by default. */
 typedef struct array {
     const void *from;
     size_t bytes;
@@ -30,12 +31,12 @@ bool mps__solvers_known_there(const mps__solvers *s)
 
 bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
 {
-    /* ranks exchange where the equation is */
+    /* the halo exchange is in the memory space of the equation */
     const bool known = mps__solvers_known_there(s) && (!e->ranks || mps__device_of(e->parallel));
     return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 
-/* @param there  out: the equation with the arrays there @param q  out: the pressures there */
+/* @param there  out: the equation with device arrays @param q  out: the pressures on the device */
 static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *p,
                        mps_ppe_problem *there, double **q)
 {

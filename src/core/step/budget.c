@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sums of energy and momentum. They are exact: the same bytes for any number of threads and any order of the particles. */
+/* Sums of energy and momentum. They are exact: the same bytes for any number of threads and any
+ * order of the particles. */
 #include "budget.h"
 #include <string.h>
 
 enum { TERMS = 5 }; /* sums of one loop, at most */
 
-/* What terms are made of. */
+/* Arguments of the row functions. */
 typedef struct terms {
     const double *rho, *u;
-    const double
-        *data; /* of a particle: an acceleration, a displacement, a pressure, a deviation */
+    const double *data; /* by particle: an acceleration, a displacement, a pressure, a deviation */
     const int32_t *region;
     double cell, dt;
-    double centre[3], v[3], omega[3]; /* of the tank's motion, a rigid velocity about `centre` */
+    double centre[3], v[3], omega[3]; /* velocity of the rigid tank, about `centre` */
 } terms;
 
-/* What all of them see. */
+/* Set what all row functions use. */
 static void complete(const mps__world *w, mps_view *v, terms *f)
 {
     const double dp = w->setup.dp;
@@ -51,7 +51,7 @@ MPS_ROW void add_flow(const int dim, const mps_view *v, const terms *f, int64_t 
 }
 MPS_SUMS(add_flows, add_flow, terms)
 
-/* The same, and last the potential energy. */
+/* Kinetic energy, momentum, and last the potential energy. */
 MPS_ROW void add_energy(const int dim, const mps_view *v, const terms *f, int64_t i, double *term)
 {
     if (!mps_is_fluid(v, i)) return;
@@ -124,7 +124,8 @@ void mps__budget_take_push(const mps__world *w, const double *sums, mps__push *p
     for (int d = 0; d < w->setup.dim; d++) push->impulse[d] = sums[2 + d];
 }
 
-/* Add half the velocity from one pose to another. Its turn is the part of (R1 R0^T - 1)/dt without strain, of what the walls really do. */
+/* Add half the velocity from one pose to another. The angular velocity is the skew-symmetric part
+ * of (R1 R0^T - 1)/dt, as of the walls' displacements. */
 static void add_half_move(const mps__motion *m, const mps__pose *from, const mps__pose *to,
                           double dt, terms *k)
 {
@@ -140,7 +141,8 @@ static void add_half_move(const mps__motion *m, const mps__pose *from, const mps
     }
 }
 
-/* Mean of the velocities of the last step and of this one; before the first: what the start convention says. */
+/* Mean of the velocities of the last step and of this one; for the first step that of the start
+ * convention. */
 static terms mean_move(const mps__world *w, const mps__pose *end, double dt)
 {
     const mps__motion *m = &w->motion;
@@ -157,7 +159,7 @@ static terms mean_move(const mps__world *w, const mps__pose *end, double dt)
     return k;
 }
 
-/* Velocity at a particle. */
+/* Tank velocity at a particle. */
 MPS_ROW void move_velocity(const int dim, const mps_view *v, const terms *f, int64_t i, double u[3])
 {
     const double *o = f->omega;
@@ -216,8 +218,8 @@ void mps__budget_wall_force(mps__world *w, const mps__pose *end, const double *p
 }
 
 typedef struct body_fields {
-    const double *pressure, *area, *from,
-        *to; /* area and places in the frame of the tank, in which bodies move */
+    /* area and positions in the tank's frame, in which solids move */
+    const double *pressure, *area, *from, *to;
 } body_fields;
 
 MPS_ROW void add_body_work(const int dim, const mps_view *v, const body_fields *f, int64_t i,
@@ -262,7 +264,8 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
     b->last = now;
 }
 
-/* Whether the sums of the last step hold. Ranks agree by summing again. */
+/* Whether the sums of the last step are still valid. Many ranks always sum again, which needs no
+ * agreement. */
 static bool is_booked(const mps__world *w)
 {
     return w->booked == w->particles.changes && !mps__ranks_many(&w->ranks);
@@ -278,7 +281,7 @@ mps_status mps__budget_update(const mps__world *w, mps__budget *b)
         mps__budget_book_added(w, b);
         return MPS_OK;
     }
-    *b = (mps__budget){0}; /* a first step that failed leaves nothing */
+    *b = (mps__budget){0}; /* a failed first step leaves nothing */
     mps__budget_sum(w, &b->last);
     b->start = b->last.kinetic + b->last.potential;
     return MPS_OK;

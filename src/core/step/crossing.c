@@ -1,27 +1,28 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The time that the resolution contains: dp/u, u the speed of the fastest piece of liquid.
- *
- *   u = max_i u_i,   u_i = N-th largest speed of the liquid within re of particle i, itself included, at most its own,
- *
- * N the number of particles that a film of two rows has within re of one of its own. So a film of two rows counts as soon as it reaches re to both
- * sides, and spray does not: drops of fewer than N particles, and fast particles beside slow ones. No region decides, as regions change from step
- * to step. Slower than 5 U_g the time does not depend on u, so that pieces are looked for among faster particles alone. */
+/* Crossing time dp/u, the shortest time that the resolution can represent; u is the speed of the
+ * fastest piece of liquid:
+ *   u = max_i u_i,   u_i = N-th largest speed of the liquid within re of particle i,
+ * itself included, and at most its own speed; N is the number of particles that a film of two
+ * layers has within re of one of its own. So a film of two layers counts once it extends by re to
+ * both sides; spray does not: droplets of fewer than N particles, and fast particles among slow
+ * ones. Regions are not used, as they change from step to step. Below 5 U_g the time does not
+ * depend on u, so only faster particles are searched. */
 #include "step.h"
 #include "world_ranks.h"
 #include <string.h>
 
-/* Of the speed before. */
+/* Fraction of the previous speed. */
 static const double NEARLY = 0.9;
 
 typedef struct liquid {
     const double *u, *rho;
-    double dense;  /* liquid is at least so dense [kg/m3] */
-    double least;  /* of squares of speeds that matter */
+    double dense;  /* least density of liquid [kg/m3] */
+    double least;  /* least square of a speed that matters */
     int32_t piece; /* N */
     mps__carry carry;
 } liquid;
 
-/* Particles of a film of two rows within the radius of one of them, with itself. */
+/* Particles of a film of two layers within the radius of one of them, with itself. */
 static int32_t film_of_two_rows(const mps_stencil *t)
 {
     const int reach = (int)(t->re / t->dp) + 1, across = t->dim == 3 ? reach : 0;
@@ -33,7 +34,7 @@ static int32_t film_of_two_rows(const mps_stencil *t)
     return count;
 }
 
-/* Square of the speed of a particle of the liquid relative to the tank; -1: of another. */
+/* Square of the speed of a liquid particle relative to the tank; -1: not liquid. */
 MPS_ROW double speed2(const int dim, const mps_view *v, const liquid *f, int64_t i)
 {
     return mps_is_fluid(v, i) && f->rho[i] >= f->dense
@@ -41,14 +42,14 @@ MPS_ROW double speed2(const int dim, const mps_view *v, const liquid *f, int64_t
                : -1;
 }
 
-/* Particle i, then its neighbours: entry `p` from one before their begin on. One call of what is
- * asked of each keeps the kernels of devices small. */
+/* Particle i, then its neighbours, for `p` from one before their begin on. A single call site of
+ * the inlined functions keeps device kernels small. */
 MPS_ROW int64_t near_or_self(const mps_stencil *t, int64_t i, int64_t p)
 {
     return p < mps_stencil_begin(t, i) ? i : mps_stencil_column(t, p);
 }
 
-/* How many of particle i and its neighbours have at least this square of a speed. */
+/* Number of particles among i and its neighbours with at least this square of a speed. */
 MPS_ROW int32_t as_fast(const int dim, const mps_view *v, const liquid *f, int64_t i, double square)
 {
     const mps_stencil *t = &v->near;
@@ -58,7 +59,7 @@ MPS_ROW int32_t as_fast(const int dim, const mps_view *v, const liquid *f, int64
     return count;
 }
 
-/* The next larger number, of a number >= 0. */
+/* The next larger double, for a value >= 0. */
 MPS_ROW double above(double least)
 {
     uint64_t bits;
@@ -88,8 +89,9 @@ MPS_ROW void raise_speed(const int dim, const mps_view *v, const liquid *f, int6
 }
 MPS_SUMS(raise_speeds, raise_speed, liquid)
 
-/* From the speeds of the fastest particle and of the fastest piece, 0 if that is no faster than 5 U_g. In calm liquid there are no impacts to be
- * averaged, and a mean lags. The time changes slowly: a mean over a time that shrinks does not count all of an impulse. */
+/* From the speeds of the fastest particle and of the fastest piece; 0: that is no faster than 5
+ * U_g. Calm liquid has no impacts to average, and a mean lags. The time changes slowly: a mean over
+ * a shrinking time would miss part of an impulse. */
 static double crossing_time(const mps__world *w, double fastest, double piece, double dt)
 {
     const double scale = w->setup.velocity_scale, last = w->state.crossing_time;
@@ -104,7 +106,7 @@ static void take_speeds(void *step, const double *most)
     memcpy(q->speeds, most, sizeof q->speeds);
 }
 
-/* Speeds of the fastest particle and of the fastest piece above `least`. */
+/* Request the speeds of the fastest particle and of the fastest piece above `least`. */
 static void ask_speeds(mps_stage *s, double least)
 {
     mps__step *q = mps__step_of(s);
@@ -119,7 +121,7 @@ static void ask_speeds(mps_stage *s, double least)
     mps__host_max_later(&w->host, s->view, SPEEDS, &raise_speeds, &f, (mps__then){take_speeds, q});
 }
 
-/* Where there is no piece nearly as fast as the one before, it is looked for among all above 5 U_g. */
+/* If there is no piece nearly as fast as the previous one, search all particles above 5 U_g. */
 void mps__step_crossing_end(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -145,7 +147,7 @@ static mps_status find_crossing_time(mps_stage *s)
 
 static const mps_use uses[] = {{"velocity", MPS_USE_NEIGHBOURS}, {"density", MPS_USE_NEIGHBOURS}};
 
-/* Ghosts have the new velocities already. */
+/* The ghosts already have the new velocities. */
 const mps__pass mps__pass_crossing = {.name = "crossing",
                                       .hook = MPS_SHIFT,
                                       .place = MPS__AFTER_MODELS,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Half cells of liquid before wetted walls, which have no particles. */
+/* Half cells of liquid at wetted walls, which contain no particles. */
 #ifndef MPS_CORE_HALF_CELL_H
 #define MPS_CORE_HALF_CELL_H
 
@@ -10,11 +10,12 @@
 #include <stdbool.h>
 
 typedef struct mps__halves {
-    const double *density, *wetted; /* of the row of the wall; share of the cell, NULL: all of it */
+    /* by wall particle: density; wetted fraction of the cell, NULL: 1 */
+    const double *density, *wetted;
     const int32_t *region;
 } mps__halves;
 
-/* Mass of a particle of the liquid, which ends at the centres of those on the surface. */
+/* Mass of a liquid particle; the liquid ends at the centres of surface particles. */
 static inline double mps__cell_mass(const double *density, const int32_t *region, double cell,
                                     int64_t i)
 {
@@ -26,12 +27,13 @@ static inline bool mps__is_about(const mps_view *v, const mps__halves *h, int64_
     return mps_is_fluid(v, j) && mps_region_of(h->region, j) != MPS_REGION_SPRAY;
 }
 
-/* Of the area of a cell's face: an area vector within a face has more than the first, those beside edges, in which two or three faces meet, have
- * more than the second (a corner: sqrt(3)/4). A free edge of a thin plate has less. */
+/* Fractions of the area of a cell's face: an area vector within a face exceeds the first, those at
+ * edges, where two or three faces meet, exceed the second (a corner: sqrt(3)/4). Those of a free
+ * edge of a thin plate are smaller. */
 static const double MPS__IN_FACE = 0.9, MPS__IN_EDGE = 0.4;
 
-/* Area of the largest of the faces that meet in wall particle i. Beside an edge its area vector has a share of each face; particles beside it,
- * within the faces, have their normals. */
+/* Area of the largest of the faces that meet in wall particle i. At an edge its area vector has
+ * contributions of each face; its neighbours within the faces have their normals. */
 MPS_ROW double mps__face_area(const int dim, const mps_view *v, int64_t i, double size)
 {
     const mps_stencil *t = &v->near;
@@ -53,7 +55,8 @@ MPS_ROW double mps__face_area(const int dim, const mps_view *v, int64_t i, doubl
     return most > 0 ? most : size * size / face;
 }
 
-/* Whether the liquid is about an edge, as about that of a block: walls beside the particle then lie behind it. */
+/* Whether the edge is convex, as that of a block in liquid: neighbouring walls are then behind the
+ * particle. */
 MPS_ROW bool mps__is_outer(const int dim, const mps_view *v, int64_t i, double size, double face)
 {
     const mps_stencil *t = &v->near;
@@ -67,9 +70,10 @@ MPS_ROW bool mps__is_outer(const int dim, const mps_view *v, int64_t i, double s
     return sum < 0;
 }
 
-/* Mass of the half cell before a particle, 0: there is none; n: unit normal of the wall. It is dp/2 high over one of its faces: where two or
- * three faces meet it is a quarter or an eighth of a cell, and outside a block the rest of it. Beside the surface the wetted share counts, in
- * which particles of the surface have half a cell. */
+/* Mass of the half cell at a particle, 0: none; n: unit normal of the wall. The height is dp/2 over
+ * one of its faces: where two or three faces meet it is a quarter or an eighth of a cell; at a
+ * convex edge the complement. At the free surface the wetted fraction applies, in which surface
+ * particles have half a cell. */
 MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halves *h, int64_t i,
                               double n[3])
 {
@@ -95,16 +99,18 @@ MPS_ROW double mps__half_cell(const int dim, const mps_view *v, const mps__halve
     return h->density[i] * share * (outer ? cell - volume : volume);
 }
 
-/* Accelerations about a half cell: the liquid's, of particle j from a[j*stride] on; the tank's, linear at the wall and angular. */
+/* Accelerations around a half cell: of liquid particle j from a[j*stride] on; of the tank, linear
+ * at the wall, and angular. */
 typedef struct mps__half_pull {
     const double *a;
     int64_t stride;
     double tank[3], turn[3];
 } mps__half_pull;
 
-/* Acceleration of that cell: that of the wall, `tank`, along the normal; along the face the mean of the liquid about it, brought to the middle of
- * the cell, dp/4 from the wall. An acceleration by pressures has no curl: across a wall its part along the face changes as the part along the
- * normal does along the wall, by n x the angular acceleration of the tank. */
+/* Acceleration of the half cell: along the normal that of the wall, `tank`; along the face the mean
+ * of the surrounding liquid, extrapolated to the middle of the cell, dp/4 from the wall.
+ * Accelerations by pressure have no curl: normal to a wall, the tangential part changes as the
+ * normal part does along the wall, by n x the angular acceleration of the tank. */
 MPS_ROW void mps__half_acceleration(const int dim, const mps_view *v, const mps__halves *h,
                                     const mps__half_pull *pull, int64_t i, const double n[3],
                                     double out[3])

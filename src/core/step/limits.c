@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How long a step may be, and which limit decides. */
+/* Time-step limits, and which one decides. */
 #include "step.h"
 
-/* So many steps at most share what is left of a run. */
+/* Equalise the last steps of a run if at most this many remain. */
 static const double SHARED_STEPS = 20;
 
 /* The limit that decides so far. */
 typedef struct limit {
     double dt;
     const char *name;         /* mps_step_info.limit */
-    const char *what, *units; /* the value behind it, for messages */
+    const char *what, *units; /* the underlying value, for messages */
     double value;
 } limit;
 
@@ -18,7 +18,8 @@ static void lower(limit *l, limit other)
     if (other.dt > 0 && other.dt < l->dt) *l = other;
 }
 
-/* Models lower s->dt_limit; the least of all ranks counts, and the name of the model that asked for it. */
+/* Models lower s->dt_limit; the minimum over all ranks applies, with the name of the model that
+ * requested it. */
 static mps_status limit_by_models(mps__world *w, mps_stage *s, mps_view *v, limit *l)
 {
     s->dt_limit = INFINITY;
@@ -34,7 +35,7 @@ static mps_status limit_by_models(mps__world *w, mps_stage *s, mps_view *v, limi
     return MPS_OK;
 }
 
-/* The limits of the state, and of the growth since the last step that they chose. */
+/* Limits of the state, and of the growth since the last step chosen by limits. */
 static mps_status limit_by_state(mps__world *w, mps_stage *s, mps_view *v, limit *l)
 {
     const mps_time_control *c = &w->setup.control;
@@ -56,8 +57,9 @@ static mps_status limit_by_state(mps__world *w, mps_stage *s, mps_view *v, limit
     return MPS_OK;
 }
 
-/* Shorten a step of at most `longest` until walls move no farther in it, or in half of it, than the cfl number allows. Where they speed up
- * the way is that of a power of the time: square roots do not fall below what is needed. */
+/* Shorten a step of at most `longest` until the walls' displacement in it, and in half of it,
+ * satisfies the cfl number. For accelerating walls the displacement is a power of the time: the
+ * square root does not overshoot. */
 static mps_status follow_walls(mps__world *w, double longest, limit *l)
 {
     const int trials = 40;
@@ -82,14 +84,14 @@ static mps_status follow_walls(mps__world *w, double longest, limit *l)
     return MPS_OK;
 }
 
-/* The longest step that does not miss what the motion does; infinite where it is not known. */
+/* The longest step that resolves the motion; infinite if unknown. */
 static double resolving(const mps__world *w, double dt)
 {
     const mps__motion *m = &w->motion;
     return m->longest ? m->longest(m->user, w->state.t, dt) : INFINITY;
 }
 
-/* A step of at most `longest` that the limits choose. */
+/* A step of at most `longest` chosen by the limits. */
 static mps_status choose(mps__world *w, mps_stage *s, mps_view *v, double longest, limit *l)
 {
     const double least = w->setup.control.dt_min;
@@ -104,7 +106,7 @@ static mps_status choose(mps__world *w, mps_stage *s, mps_view *v, double longes
                      l->dt, w->state.t, least, l->name, l->what, l->value, l->units);
 }
 
-/* The user chose the step: all that is left is to tell. */
+/* The user chose the step: only warn. */
 static void check_fixed(mps__world *w, double dt)
 {
     const double known = resolving(w, dt);

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checks of what a step has done: finite, not too fast, and not farther than the walls can hold; how far the walls go. */
+/* Checks of a step: results are finite and not too fast, displacements are within what walls can
+ * contain; displacements of the walls. */
 #include "step.h"
 #include "world_ranks.h"
 #include <float.h>
 #include <string.h>
 
-/* Layers of dummies behind walls that a user gave particle by particle. */
+/* Assumed layers of dummies behind walls that a user gave particle by particle. */
 static const int32_t layers_unknown = 2;
 
 static double limit_of(const mps__world *w)
@@ -13,15 +14,15 @@ static double limit_of(const mps__world *w)
     return (1 + (w->setup.layers > 0 ? w->setup.layers : layers_unknown)) * w->setup.dp;
 }
 
-/* Ways in a step, in the frame of the tank, whose poses at both ends are in the view. */
+/* Displacements in a step, in the frame of the tank, whose poses at both ends are in the view. */
 typedef struct ways {
-    const double *before, *x; /* [n*dim] places at its begin and its end */
+    const double *before, *x; /* [n*dim] positions at the begin and the end of the step */
     const double *ref, *u;
     double dt, limit;
     mps__carry carry;
 } ways;
 
-/* How far a fluid particle went with respect to the tank. */
+/* Displacement of a fluid particle relative to the tank. */
 MPS_ROW double moved(const int dim, const mps_view *v, const ways *f, int64_t i)
 {
     const mps_tank_pose *k = &v->tank;
@@ -32,14 +33,14 @@ MPS_ROW double moved(const int dim, const mps_view *v, const ways *f, int64_t i)
     return sqrt(square);
 }
 
-/* The particles now, and the tank now and at another pose. */
+/* View of the present particles, with the present pose of the tank and another one. */
 static void view_of(const mps__world *w, const mps__pose *next, mps_view *v)
 {
     mps__world_view(w, v);
     mps__motion_view_next(next, &v->tank);
 }
 
-/* Place of the particle with this id; -1: it is on another rank, which has the text of the failure. */
+/* Index of the particle with this id; -1: it is on another rank, which has the error text. */
 static int64_t place_of(mps__world *w, int64_t id)
 {
     const mps__particles *s = &w->particles;
@@ -49,7 +50,7 @@ static int64_t place_of(mps__world *w, int64_t id)
     return i < s->n ? i : -1;
 }
 
-/* Places before this step moved the particles, on the host. */
+/* Positions before this step moved the particles, on the host. */
 static const double *places_before(mps__world *w)
 {
     mps__twins_ready(&w->host.twins, MPS__POSITION_BEFORE, MPS__ON_HOST);
@@ -73,7 +74,8 @@ static mps_status jumped(mps__world *w, const mps_view *v, const ways *f, int64_
     return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
 }
 
-/* Steps that follow the speed never get there, unless a model of a plug-in pushes. */
+/* Whether fluid may move too far: adaptive steps prevent it, unless a plug-in model accelerates
+ * it. */
 bool mps__world_may_jump(const mps__world *w)
 {
     const mps_time_control *c = &w->setup.control;
@@ -83,7 +85,8 @@ bool mps__world_may_jump(const mps__world *w)
     return c->dt > 0 || c->cfl <= 0 || c->cfl > 1 || foreign;
 }
 
-/* 1: there are solids; the farthest way, and the negative of the least id beyond the limit. */
+/* 1: there are solids; the largest displacement, and the negative of the least id beyond the
+ * limit. */
 MPS_ROW void raise_way(const int dim, const mps_view *v, const ways *f, int64_t i, double *most)
 {
     const double distance = mps_is_fluid(v, i) ? moved(dim, v, f, i) : 0;
@@ -93,7 +96,8 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const ways *f, int64_t 
 }
 MPS_SUMS(raise_ways, raise_way, ways)
 
-/* Fluid that moves farther in a step than the layers of the solids are deep may come out behind them unseen. */
+/* Fluid that moves farther in a step than the depth of the solids' layers could pass through them
+ * undetected. */
 mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
                                   double dt)
 {
@@ -115,14 +119,15 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const do
     return MPS_OK;
 }
 
-/* Square of the longest way of a wall beside that of its present velocity, or of the fluid as the walls see it. The present velocity alone
- * brings no wall nearer to liquid that moves with the tank. */
+/* Square of the largest deviation from a uniform motion: of a wall from the present tank velocity,
+ * of fluid relative to the walls. The present velocity itself brings no wall nearer to liquid that
+ * moves with the tank. */
 MPS_ROW void raise_wall_way(const int dim, const mps_view *v, const ways *f, int64_t i,
                             double *most)
 {
     const mps_tank_pose *k = &v->tank;
     const bool fluid = mps_is_fluid(v, i);
-    double X[3], here[3], next[3], u[3], square = 0; /* u of the tank here */
+    double X[3], here[3], next[3], u[3], square = 0; /* u: velocity of the tank at `here` */
     if (fluid)
         mps__tank_place(dim, k->centre, k->shift, k->rotation, v->x + i * dim, X);
     else
@@ -152,7 +157,7 @@ void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, do
                     .carry = mps__motion_carry(&w->motion, &w->motion.now)};
     mps_view v;
     view_of(w, pose, &v);
-    *way = 0; /* where a device fails */
+    *way = 0; /* if a device fails */
     mps__host_max_later(&w->host, &v, 1, &raise_wall_ways, &f, (mps__then){take_way, way});
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
 }
@@ -172,14 +177,15 @@ mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, cons
                      x[0], x[1], x[2], pose->t, most, MPS__FARTHEST);
 }
 
-/* What a step has done. */
+/* Arguments of the check of a step's result. */
 typedef struct result {
     const double *x, *u, *p;
     double fastest; /* speed limit */
     mps__carry carry;
 } result;
 
-/* The largest speed of the fluid, and the negative of the least id of what is not finite or too fast. */
+/* The largest speed of the fluid, and the negative of the least id of a particle that is not finite
+ * or too fast. */
 MPS_ROW void raise_result(const int dim, const mps_view *v, const result *f, int64_t i,
                           double *most)
 {
@@ -207,11 +213,11 @@ void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *po
                       .p = mps__seen(w, all->p),
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX),
                       .carry = mps__motion_carry(&w->motion, pose)};
-    *v = (mps__outcome){0, -INFINITY}; /* where a device fails */
+    *v = (mps__outcome){0, -INFINITY}; /* if a device fails */
     mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, v});
 }
 
-/* NaN and speeds beyond every physical range stop the run, with the particle and its place. */
+/* NaN and speeds beyond every physical range stop the run, with the particle and its position. */
 mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
                                    const mps__outcome *v, mps_step_info *info)
 {

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The passes of a step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. Verbs of models stand between them, by their hooks. */
+/* The passes of a step, W22 section 2.5 and Fig. 2: predict, pressure equation, correct. Verbs of
+ * models run between them, by their hooks.
+ * W22: Wen, Zhao & Wan 2022. */
 #include "step.h"
 
 const mps__pass *const mps__step_passes[] = {
     /* MPS_MOTION */
     &mps__pass_tank, &mps__pass_jump,
-    /* MPS_CLASSIFY: all that is known at r^k */
+    /* MPS_CLASSIFY: quantities at r^k */
     &mps__pass_neighbours, &mps__pass_weights, &mps__pass_volumes, &mps__pass_first_values,
     /* MPS_FORCE */
     &mps__pass_clear_forces, &mps__pass_begin_load, &mps__pass_book_forces, &mps__pass_predict,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fluid that models let in and out before a step, and what becomes of it if the step fails. */
+/* Fluid that models add and remove before a step, and its rollback if the step fails. */
 #include "populate.h"
 #include "gather.h"
 
@@ -7,7 +7,7 @@
 #include "world_ranks.h"
 #include <string.h>
 
-/* What verbs see: particles without neighbours. */
+/* The stage for verbs: particles without neighbours. */
 static void open_stage(mps__world *w, mps_stage *s, mps_view *v)
 {
     mps__world_view(w, v);
@@ -15,7 +15,7 @@ static void open_stage(mps__world *w, mps_stage *s, mps_view *v)
     *s = (mps_stage){.struct_size = sizeof *s, .step = w->state.step + 1};
 }
 
-/* Append what verbs have added. */
+/* Append the particles that verbs have added. */
 static mps_status let_in(mps__world *w)
 {
     const mps__host *h = &w->host;
@@ -37,7 +37,7 @@ static mps_status let_in(mps__world *w)
     return MPS_OK;
 }
 
-/* Rows that leave, of those that were there before others came. */
+/* Remove marked particles, of those that existed before others were added. */
 static mps_status let_out(mps__world *w, int64_t rows)
 {
     const mps__host *h = &w->host;
@@ -84,7 +84,7 @@ mps_status mps__world_populate(mps__world *w)
     return apply(w);
 }
 
-/* New particles are owned or ghosts: all of them go. */
+/* New particles are owned or ghosts: all of them are removed. */
 void mps__world_depopulate(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -93,7 +93,7 @@ void mps__world_depopulate(mps__world *w)
     if (w->lists.first_new == s->next_id) return;
     for (int64_t i = 0; i < s->n; i++) fresh += s->id[i] >= w->lists.first_new;
     int32_t *order = mps__scratch_take(w->context, &w->scratch, 0, s->n, sizeof *order);
-    if (!order) return; /* they stay: the next step has them */
+    if (!order) return; /* out of memory: they stay for the next step */
     int64_t last = s->n - fresh;
     for (int64_t i = 0; i < s->n; i++)
         order[s->id[i] >= w->lists.first_new ? last++ : kept++] = (int32_t)i;
@@ -106,7 +106,7 @@ void mps__world_depopulate(mps__world *w)
     w->lists.neighbours.valid = false;
 }
 
-/* ---- what verbs call ---- */
+/* ---- functions for verbs ---- */
 
 static int not_here(mps_stage *s, const char *call)
 {
@@ -146,7 +146,8 @@ int mps_stage_remove(mps_stage *s, const int32_t *leaves)
     const int64_t n = s->view->n;
     if (s->hook != MPS_POPULATE) return not_here(s, "mps_stage_remove");
     if (!leaves) return mps_stage_fail(s, "mps_stage_remove(): leaves is NULL");
-    /* the rows of an earlier call in this step stay: then there is room already */
+    /* an earlier call in this step may have set marks, which are kept: the capacity suffices
+     * then */
     if (n > h->leaves_capacity && mps__grow(h->context, (void **)&h->leaves, &h->leaves_capacity, 0,
                                             mps__room(n, h->leaves_capacity), 1) < 0) {
         h->no_memory = true;

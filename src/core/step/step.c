@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One time step: what is known before, the calls of its plan by their hooks, what is kept after. */
+/* One time step: preparation, the calls of its plan by hooks, commit. */
 #include "guard.h"
 #include "populate.h"
 #include "step.h"
@@ -14,7 +14,7 @@ static mps_status run_hooks(mps__step *q)
 {
     for (int32_t hook = MPS_MOTION; hook < MPS_HOOK_COUNT; hook++) {
         MPS__TRY(mps__step_run(q, hook));
-        /* a body has changed the pressures, so their level is another */
+        /* a body has changed the pressures, so their datum has changed */
         if (hook == MPS_GRADIENT && mps__body_carries(q->w)) MPS__TRY(mps__step_run(q, MPS_LEVEL));
     }
     return MPS_OK;
@@ -50,7 +50,7 @@ static void commit(mps__step *q)
     w->state.budget.last = q->last;
     w->booked = w->particles.changes;
     memcpy(w->ahead.most, q->ahead, sizeof q->ahead);
-    /* bodies move in the tank; without a device nothing was asked */
+    /* solids move in the tank; without a device nothing was requested */
     w->ahead.changes = w->host.twins.last.launches > 0 && !w->work.bodies ? w->particles.changes
                                                                           : -1;
     w->ahead.searches = w->lists.neighbours.searches;
@@ -61,7 +61,7 @@ static void commit(mps__step *q)
     }
 }
 
-/* Times by MPS_STAGE_..., of which the last takes what is left. */
+/* Times by MPS_STAGE_...; the last one is the remainder. */
 static void book_times(mps__step *q, double seconds)
 {
     mps__host *h = &q->w->host;
@@ -72,7 +72,7 @@ static void book_times(mps__step *q, double seconds)
     stage[MPS_STAGE_CORRECT] = rest;
 }
 
-/* The liquid starts with the tank's velocity, or everything from rest. */
+/* The liquid starts with the tank's velocity, or everything starts at rest. */
 static mps_status start(mps__world *w, mps__budget *budget)
 {
     mps__particles *s = &w->particles;
@@ -89,7 +89,7 @@ static mps_status start(mps__world *w, mps__budget *budget)
     return MPS_OK;
 }
 
-/* What models leave for the next step. */
+/* Check the numbers that models keep for the next step. */
 static mps_status check_numbers(const mps__world *w)
 {
     int64_t k = 0;
@@ -100,7 +100,7 @@ static mps_status check_numbers(const mps__world *w)
                      model->ops->name, w->state.t, (long long)k, model->state.value[k]);
 }
 
-/* All that may fail after the state is kept. */
+/* The part of a step that can fail and be undone. */
 static mps_status try_step(mps__step *q, double dt_max, double *planned)
 {
     mps__world *w = q->w;
@@ -110,7 +110,7 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     MPS__TRY(start(w, &q->budget));
     MPS__TRY(mps__step_turn_areas(w));
     MPS__TRY(mps__step_place_solids(w));
-    /* a function of the user has no text that a device knows */
+    /* a user's kernel function has no device code */
     if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
         MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
     MPS__TRY(mps__world_lists_twins(w));
@@ -138,10 +138,10 @@ static bool any_fluid(mps__world *w)
     return any;
 }
 
-/* Neighbours, and room for what lives for a step. */
+/* Neighbours, and memory of the step's arrays. */
 static mps_status prepare(mps__world *w)
 {
-    mps__neighbours_release(&w->lists.complete); /* its stencils end with this step */
+    mps__neighbours_release(&w->lists.complete); /* its stencils are valid until this step */
     MPS__TRY(mps__world_populate(w));
     if (!any_fluid(w))
         return mps__fail(w->context, MPS_E_STATE, "there is no fluid particle to step");
@@ -149,7 +149,8 @@ static mps_status prepare(mps__world *w)
     return mps__channels_reserve(&w->channels, w->particles.n);
 }
 
-/* A tank that its load moves, and that jumps while the step fails, was most likely thrown there by its coupling. */
+/* Extend the error text: if the tank is moved by its load and jumps in a failed step, its coupling
+ * is the likely cause. */
 static mps_status name_coupling(const mps__step *q, mps_status status)
 {
     const mps__world *w = q->w;
@@ -168,7 +169,8 @@ static mps_status name_coupling(const mps__step *q, mps_status status)
                      w->context->error, jump);
 }
 
-/* The calls are over. What a search found there may be lost: the next step finds it again, where it was found. */
+/* After the calls. Lists on the device may be lost: then the next step searches again at the
+ * positions of the last search. */
 static mps_status leave_device(mps__world *w)
 {
     const mps__twins *t = &w->host.twins;
@@ -191,7 +193,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     MPS__TRY(mps__world_adopt(w));
     MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
     mps__plan_note(&w->host.plan, &w->models);
-    /* what has come, changed or gone since the last step, whatever becomes of this one */
+    /* changes since the last step, whether this one succeeds or not */
     MPS__TRY(mps__step_book_between(w));
     mps__twins_begin(&w->host.twins);
     w->ahead.holds = w->ahead.changes == w->particles.changes &&
@@ -210,7 +212,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     const bool kept = status >= 0;
     if (kept) status = try_step(&q, dt_max, &planned);
     const mps_status closed = leave_device(w);
-    if (closed < 0) status = closed; /* whatever came of it */
+    if (closed < 0) status = closed; /* a device error takes precedence */
     if (kept && status < 0) {
         const mps_status undone = mps__undo_restore(w, q.before);
         if (undone < 0) status = undone;
@@ -225,7 +227,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
 #ifdef MPS_CHECKED
     mps__guard_poison(&w->host);
 #endif
-    /* a step cut short says nothing about the next */
+    /* a step shortened by the caller does not limit the growth of the next */
     if (planned > 0) w->state.dt_previous = planned;
     mps__host_book(&w->host, MPS__COMMIT);
     book_times(&q, w->host.clock - begin);

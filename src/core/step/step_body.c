@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body that carries the tank. A step begins with the acceleration of the last one. When pressures and the accelerations of the liquid are
- * known, so is its load, F = F0 - A a, and the body's equation gives a. Pressures, velocities of walls and all accelerations are linear in
- * a: they are corrected in place, by the columns of the added mass. What later parts of the step do to the liquid the body feels in the
- * next one. */
+/* A body that carries the tank. A step begins with the acceleration of the last one. Once pressures
+ * and the accelerations of the liquid are known, its load is F = F0 - A a, and the body's equation
+ * gives a. Pressures, velocities of walls and all accelerations are linear in a: they are corrected
+ * in place, by the columns of the added mass. Effects of later parts of the step on the liquid act
+ * on the body in the next one. */
 #include "step.h"
 #include <string.h>
 
@@ -14,7 +15,7 @@ int mps__body_motion(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* ---- what the body feels ---- */
+/* ---- the body's equation ---- */
 
 static mps_status ask_load(mps__step *q, double load[6])
 {
@@ -57,7 +58,7 @@ static mps_status no_solution(const mps__step *q, const mps__rigid_step *r)
                      r->singular < MPS_ROTATE_X ? "kg" : "kg m2", r->share, r->least);
 }
 
-/* Solve the step; `change`: of the accelerations in the lab. */
+/* Solve the body's equation; `change`: of the accelerations in the lab. */
 static mps_status solve_body(mps__step *q, const double force[6], double change[6],
                              mps_motion_state *next)
 {
@@ -93,25 +94,26 @@ static mps_status solve_body(mps__step *q, const double force[6], double change[
     state->external_work += r.external_work;
     state->liquid_work += r.liquid_work;
     state->iterations = q->load.iterations;
-    /* as the liquid sees it, from pose to pose */
+    /* as for the liquid, from pose to pose */
     mps__motion_pose_of(next, q->pose.t, &q->pose);
     mps__step_acceleration(q, change);
     for (int k = 0; k < 6; k++) change[k] -= was[k];
     return MPS_OK;
 }
 
-/* ---- what changes with it ---- */
+/* ---- corrections ---- */
 
 typedef struct changes {
     const double *place;                 /* of solids at the end of the step, tank's frame */
     const double *columns_p, *columns_a; /* changes by each column [n*count], [n*count*dim] */
     double *pressure, *acceleration, *tank, *velocity;
-    double shift[3], rotation[9]; /* of the tank at the end of the step, as it was taken to be */
+    double shift[3], rotation[9]; /* of the tank at the end of the step, as predicted */
     double change[6];             /* of the columns' accelerations */
     int32_t count;
 } changes;
 
-/* Way of a particle's place in the tank from where the end of the step was taken to be to where it is. */
+/* Displacement of a particle's position in the tank from the predicted to the actual end of the
+ * step. */
 MPS_ROW void find_way(const int dim, const mps_view *v, const changes *f, int64_t i, double way[3])
 {
     const mps_tank_pose *k = &v->tank;
@@ -135,7 +137,7 @@ MPS_ROW void raise_way(const int dim, const mps_view *v, const changes *f, int64
 }
 MPS_SUMS(raise_ways, raise_way, changes)
 
-/* Models let fluid that no wall holds fall with g, whatever the tank does (body.free). */
+/* Models let fluid that no wall contains fall with g, whatever the tank does (body.free). */
 MPS_ROW bool falls(const int dim, const mps_view *v, const changes *f, int64_t i)
 {
     bool same = mps_is_fluid(v, i);
@@ -165,7 +167,7 @@ MPS_ROWS(correct_rows, correct_row, changes)
 
 enum { PRESSURE, ACCELERATION, TANK, VELOCITY, DENSITY, REGION, PLACE, USES };
 
-/* Farther than a spacing beside the way that was expected the body is not followed. */
+/* Fail if the body moves farther than a spacing from the prediction. */
 static mps_status check_way(mps_stage *s, const changes *f)
 {
     const mps__step *q = mps__step_of(s);
@@ -243,7 +245,7 @@ const mps__pass mps__pass_body = {.name = "body",
                                   .run = move_body,
                                   .idle = carries_none};
 
-/* What the step did to the liquid beside what the body felt. */
+/* Defer the effects of the step on the liquid that the body has not received. */
 void mps__step_body_end(mps__step *q)
 {
     if (!mps__body_carries(q->w)) return;

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The budget of a step: what each part of it adds to energy and momentum. Only the plates, which
- * stop drops, change the flow here. */
+/* The budget of a step: contributions of its parts to energy and momentum. Only the plates, which
+ * stop droplets, change the flow here. */
 #include "plates.h"
 #include "step.h"
 #include <string.h>
 
-/* Whether verbs run at a hook. Without, all is as before it. */
+/* Whether verbs run at a hook; without, nothing changes. */
 static bool acts(const mps__step *q, int32_t hook)
 {
     const mps__plan *p = &q->w->host.plan;
@@ -28,7 +28,7 @@ mps_status mps__step_book_between(mps__world *w)
     return MPS_OK;
 }
 
-/* What there is at a hook: the kinetic energy, or what accelerations so far bring to it. */
+/* State at a hook: the kinetic energy, or the effect of the accelerations so far. */
 static mps__push so_far(const mps__step *q)
 {
     mps__push push = {0};
@@ -61,7 +61,7 @@ void mps__step_book_line(mps__step *q, bool after)
         q->before_line = now;
         return;
     }
-    /* the line of the hook, which gets all that its verbs did, gives it back */
+    /* the hook's line includes all of its verbs: move this part to the other line */
     const double gained = now.energy - q->before_line.energy;
     *(friction ? &b->friction : &b->plugins) -= gained;
     *(force ? &b->viscous : &b->collision) += gained;
@@ -72,7 +72,7 @@ void mps__step_book_line(mps__step *q, bool after)
     }
 }
 
-/* Velocities are those that the last state was booked with: no verb changes them before. */
+/* The velocities are those of the last entry: no verb changes them before. */
 static void add_forces(void *step, const double *sums)
 {
     mps__step *q = step;
@@ -224,7 +224,7 @@ const mps__pass mps__pass_book_shift = {.name = "book_shift",
                                         .uses = book_shift_uses,
                                         .run = book_shift};
 
-/* Plates look at one particle after the other, on the host. */
+/* Plates process particles sequentially, on the host. */
 static void stop_drops(mps_stage *s, mps__world *w)
 {
     static const int32_t changed[] = {MPS__POSITION, MPS__VELOCITY};
@@ -244,7 +244,7 @@ static mps_status stop_at_plates(mps_stage *s)
     mps__world *w = q->w;
     mps__bulk moved, stopped;
     if (w->lists.screens.count == 0) return MPS_OK;
-    mps__host_settle(&w->host); /* what is booked here comes after it */
+    mps__host_settle(&w->host); /* keep the order of the entries */
     mps__budget_sum(w, &moved);
     stop_drops(s, w);
     mps__budget_sum(w, &stopped);

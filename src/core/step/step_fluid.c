@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How the fluid moves in a step: prediction, correction, new positions; then the checks, and what is kept. */
+/* Motion of the fluid in a step: prediction, correction, new positions; checks; final values.
+ * Z14: Zhang, Wan & Hino 2014. */
 #include "step.h"
 #include "world_ranks.h"
 
@@ -162,7 +163,7 @@ MPS_ROW void move_row(const int dim, const mps_view *v, const move_fields *f, in
 }
 MPS_ROWS(move_rows, move_row, move_fields)
 
-/* r = r + dt u + shift; solids go where the tank will be. */
+/* r = r + dt u + shift; solids move to the tank's next pose. */
 static mps_status move(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -188,7 +189,7 @@ const mps__pass mps__pass_move = {.name = "move",
                                   .uses = move_uses,
                                   .run = move};
 
-/* ---- checks, and what is kept ---- */
+/* ---- checks, and final values ---- */
 
 static mps_status tell_result(mps__step *q)
 {
@@ -196,7 +197,8 @@ static mps_status tell_result(mps__step *q)
     return mps__world_check_result(q->w, &q->view, true, &q->outcome, &q->info);
 }
 
-/* On a device the result is known at the end of the step, unless ways of the fluid are looked at too. */
+/* On a device the result is known at the end of the step, unless displacements of the fluid are
+ * checked, too. */
 static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -226,7 +228,7 @@ static mps_status share(mps_stage *s)
     return mps__world_share_step(mps__step_of(s)->w);
 }
 
-/* Ghosts get the fields that have changed, for leases and the next step. */
+/* Halo exchange of changed fields, for leases and the next step. */
 const mps__pass mps__pass_share = {.name = "share",
                                    .hook = MPS_SHIFT,
                                    .place = MPS__AFTER_MODELS,
@@ -250,7 +252,7 @@ MPS_ROW void keep_row(const int dim, const mps_view *v, const keep_fields *f, in
 }
 MPS_ROWS(keep_rows, keep_row, keep_fields)
 
-/* Sums: of 1 over the surface, over the rows at their least pressure. */
+/* Sums: of 1 over the surface; over rows with an active lower bound. */
 enum { SURFACE, SEPARATED, COUNTS };
 
 MPS_ROW void count_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i,

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The load on the tank as what the liquid's momentum lacks. The liquid ends where the pressure equation ends it: at walls, before which half
- * cells have no particles, and at the centres of surface particles, of which half a cell counts. F = M g - dP/dt of the particles + m (g - a)
- * of the half cells. */
+/* The load on the tank, as the momentum deficit of the liquid. The liquid ends where the pressure
+ * equation ends it: at walls, whose half cells contain no particles, and at the centres of surface
+ * particles, which count as half a cell. F = M g - dP/dt of the particles + m (g - a) of the half
+ * cells. */
 #include "half_cell.h"
 #include "step.h"
 #include <mps/couple.h>
@@ -18,13 +19,13 @@ int32_t mps__step_freedom(int32_t dim, int32_t freedom[6])
 
 typedef struct flow {
     const double *rho, *u;
-    const double *a; /* accelerations that velocities get, or NULL */
+    const double *a; /* accelerations to be applied to velocities, or NULL */
     const int32_t *region;
-    int32_t masses; /* 1: masses and their arms, too */
+    int32_t masses; /* 1: also masses and their arms */
     double cell, dt, at[3];
 } flow;
 
-/* Axes of moments. */
+/* Number of axes of moments. */
 #define TURNS(dim) ((dim) == 3 ? 3 : 1)
 
 /* Momentum [dim], its moment [TURNS], mass, mass times arm [dim]. */
@@ -53,8 +54,8 @@ static double cell_of(const mps__world *w)
     return w->setup.dim == 2 ? dp * dp : dp * dp * dp;
 }
 
-/* Of the velocities as they are, or as accelerations `a` make them. The masses stay what they are in a step: once they are known, they are not
- * summed again, and 0. */
+/* Momentum of the velocities, or of velocities changed by accelerations `a`. Masses are constant in
+ * a step: once they are known, they are not summed again, and returned as 0. */
 static void sum_momentum(const mps__step *q, const double *a, bool masses,
                          double sums[MPS__MOMENTUM])
 {
@@ -111,7 +112,7 @@ typedef struct half_fields {
     double at[3], turn[3];
 } half_fields;
 
-/* Pressures give the liquid its acceleration less gravity. */
+/* The acceleration by pressures is that of the liquid minus gravity. */
 MPS_ROW void add_half(const int dim, const mps_view *v, const half_fields *f, int64_t i,
                       double *term)
 {
@@ -144,7 +145,7 @@ static void sum_halves(mps_stage *s, const mps__load_arrays *a, double force[6])
     mps_stage_sum(s, 6, &add_halves, &f, force);
 }
 
-/* What the momentum of the particles lacks. */
+/* Add the momentum deficit of the particles. */
 static void add_lack(const mps__step *q, const double after[MPS__MOMENTUM], double force[6])
 {
     const double *g = q->w->setup.g, *b = q->momentum_before;
@@ -182,7 +183,7 @@ static const mps_use half_uses[USES] = {
     [TANK] = {"tank_acceleration", MPS_USE_READ},
     [DENSITY] = {"pressure_density", MPS_USE_READ},
     [REGION] = {"region", MPS_USE_NEIGHBOURS},
-    /* it lives until the added mass has been computed */
+    /* keeps the channel allocated until the added mass has been computed */
     [CORRECTION] = {"correction", MPS_USE_READ | MPS_USE_OPTIONAL}};
 
 const mps__pass mps__pass_half_cells = {.name = "half_cells",
@@ -196,7 +197,8 @@ const mps__pass mps__pass_half_cells = {.name = "half_cells",
 
 /* ---- the end of the step ---- */
 
-/* Velocity of the centre of motion from one pose to another, and the angular one: the part of (R1 R0^T - 1)/dt without strain. */
+/* Velocity of the centre of motion from one pose to another, and the angular velocity: the
+ * skew-symmetric part of (R1 R0^T - 1)/dt. */
 static void velocity_between(const mps__motion *m, const mps__pose *from, const mps__pose *to,
                              double dt, double out[6])
 {

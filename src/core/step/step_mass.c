@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The added mass: how the load on the tank changes with its acceleration. The pressure equation of the step is linear in it, so each degree of
- * freedom is one more solution of the same matrix, with the same preconditioner; mps__ppe.moments has its right side. The solution of the step
- * before is the first guess. A body needs the columns of its free degrees alone. */
+/* The added mass: change of the load on the tank with its acceleration. The pressure equation of
+ * the step is linear in it, so each degree of freedom is one more solution with the same matrix and
+ * preconditioner; mps__ppe.moments gives its right side. The solution of the previous step is the
+ * first guess. A body needs only the columns of its free degrees. */
 #include "half_cell.h"
 #include "loop.h"
 #include "step.h"
@@ -32,10 +33,10 @@ MPS_ROW void side_row(const int dim, const side *f, int64_t r)
 }
 MPS__LOOP(side_rows, side_row, side)
 
-/* One number of several a place, from another place: pressures of unknowns from those of particles, and back. */
+/* Copy one component of an interleaved array to another, by index: from pressures of particles to
+ * those of unknowns, and back. */
 typedef struct transfer {
-    const int32_t
-        *place; /* of the particle of an unknown, or of the unknown of a particle; NULL: the same */
+    const int32_t *place; /* particle of an unknown, or unknown of a particle; NULL: identity */
     const double *from;
     double *to;
     int32_t from_count, from_at, to_count, to_at;
@@ -50,7 +51,7 @@ MPS_ROW void transfer_row(const int dim, const transfer *f, int64_t i)
 }
 MPS__LOOP_ANY(transfer_rows, transfer_row, transfer)
 
-/* What the rows are made of, on the host. */
+/* Copy the arrays that the row functions read to the host. */
 static void get_ready(mps__world *w)
 {
     int32_t channel[MPS__FLUX_CHANNELS];
@@ -101,15 +102,15 @@ static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dof
     return MPS_OK;
 }
 
-/* ---- what the liquid does ---- */
+/* ---- the response of the liquid ---- */
 
-/* Degrees of freedom, constant where the dimension is; those of one sum. */
+/* Degrees of freedom, a compile-time constant if `dim` is; columns of one sum. */
 #define DOFS(dim)    ((dim) == 3 ? 6 : 3)
 #define AT_ONCE(dim) ((dim) == 3 ? 2 : 3)
 
 typedef struct mass_fields {
     mps__halves halves;
-    const double *p, *correction, *density; /* changes of pressures [n*count]; of particles */
+    const double *p, *correction, *density; /* changes of pressures [n*count]; by particle */
     double *a;                              /* [n*count*dim] changes of accelerations */
     mps__mass_columns columns;
     int64_t stride;      /* count*dim */
@@ -117,7 +118,7 @@ typedef struct mass_fields {
     double at[3], cell;
 } mass_fields;
 
-/* Along degree of freedom k: x, y, (z,) rotations about (x, y,) z. */
+/* Component for degree of freedom k: x, y, (z,) rotations about (x, y,) z. */
 MPS_ROW double along(const int dim, const int k, const double *d, const double turn[3])
 {
     return k < dim ? d[k] : turn[dim == 2 ? 2 : k - 3];
@@ -128,7 +129,7 @@ static inline int axis_of(const int dim, const int k)
     return k < dim ? k : dim == 2 ? 2 : k - 3;
 }
 
-/* Acceleration of the tank at an arm from the centre, by degree of freedom k. */
+/* Acceleration of the tank at an arm from the centre, for degree of freedom k. */
 MPS_ROW void tank_acceleration(const int dim, const int k, const double arm[3], double out[3])
 {
     double axis[3];
@@ -139,8 +140,9 @@ MPS_ROW void tank_acceleration(const int dim, const int k, const double arm[3], 
         mps__cross(axis, arm, out);
 }
 
-/* The gradient of gradient.corrected, of all changes at once: a = a_tank - D/n0 B sum w [dp/rho + a_tank.r] r. The mean of a_tank.r over a
- * pair is (arm of i x r) along the axis of a rotation. */
+/* The gradient of gradient.corrected, for all columns at once: a = a_tank - D/n0 B sum w [dp/rho +
+ * a_tank.r] r. The mean of a_tank.r over a pair is the component of (arm of i x r) along the axis
+ * of a rotation. */
 MPS_ROW void change(const int dim, const int count, const mps_view *v, const mass_fields *f,
                     int64_t i)
 {
@@ -173,7 +175,7 @@ MPS_ROW void change(const int dim, const int count, const mps_view *v, const mas
     }
 }
 
-/* One column, as most bodies have, without a loop over columns in that over pairs. */
+/* Specialised for one column, as for most bodies: no inner loop over columns. */
 MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, int64_t i)
 {
     if (f->columns.count == 1)
@@ -183,7 +185,7 @@ MPS_ROW void change_row(const int dim, const mps_view *v, const mass_fields *f, 
 }
 MPS_ROWS(change_rows, change_row, mass_fields)
 
-/* Force of the tank on the liquid and its moment, by some columns. */
+/* Force of the tank on the liquid and its moment, for some columns. */
 MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, int64_t i,
                         double *term)
 {
@@ -212,7 +214,7 @@ MPS_ROW void add_change(const int dim, const mps_view *v, const mass_fields *f, 
 }
 MPS_SUMS(add_changes, add_change, mass_fields)
 
-/* A, from the changes of all pressures. */
+/* Columns of A, from the changes of all pressures. */
 static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs)
 {
     mps__world *w = q->w;
@@ -287,7 +289,7 @@ mps_status mps__step_mass(mps__step *q)
     return sum_columns(q, freedom, dofs);
 }
 
-/* The next step begins with what this one has found. */
+/* Store the result as the first guess of the next step. */
 void mps__step_mass_end(mps__step *q)
 {
     mps__world *w = q->w;

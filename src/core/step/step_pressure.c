@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pressure part of a step: the equation, its solution, and what is told about it. */
+/* The pressure part of a step: the equation, its solution, and messages about it. */
 #include "step.h"
 #include "levels.h"
 #include "loop.h"
 #include <mps/couple.h>
 #include <stdio.h>
 
-/* Share of its way to that of the present step that the spread of pressures goes in a step. */
+/* Relaxation factor of the pressure spread per step. */
 static const double SPREAD_SHARE = 0.2;
 
-/* A gain g below 1 leaves (1 - g) dt/g =: T of a steady demand to later steps. In a shorter step g
- * would ask at once for what longer ones left: pressures would jump by (1 - g)(dt_before/dt - 1).
- * With g = dt/(dt + T) they do not depend on dt; T follows the steps slowly. */
+/* A gain g below 1 defers (1 - g) dt/g =: T of a steady source to later steps. A shorter step with
+ * the same g would apply at once what longer ones deferred: pressures would jump by (1 -
+ * g)(dt_before/dt - 1). With g = dt/(dt + T) they do not depend on dt; T follows the steps
+ * slowly. */
 static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
@@ -32,7 +33,7 @@ MPS_ROW bool has_law(const law_fields *f, int64_t i)
 }
 MPS__FIRST(laws, has_law, law_fields)
 
-/* The law of a gas needs a solver of nonlinear rows. */
+/* A gas law needs a solver of nonlinear equations. */
 static mps_status check_laws(mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
@@ -47,7 +48,7 @@ static mps_status check_laws(mps__step *q, const double *law)
     return MPS_OK;
 }
 
-/* An equation on many ranks needs a solver that knows of them. */
+/* An equation on many ranks needs a solver that supports ranks. */
 static mps_status check_ranks(const mps__step *q)
 {
     const mps__solvers *s = &q->w->solvers;
@@ -71,7 +72,7 @@ static void note_level(mps__step *q)
              q->view.t);
 }
 
-/* What models have made of the equation. */
+/* Complete the equation of the models. */
 static mps_status close_equation(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -158,7 +159,7 @@ const mps__pass mps__pass_unknowns = {.name = "unknowns",
 
 /* ---- solution ---- */
 
-/* The text of a solution that failed. A NaN of the prediction has a particle and a place. */
+/* Error text of a failed solution. A NaN of the prediction has a particle and a position. */
 static mps_status tell_failure(mps_stage *s, mps_status status)
 {
     mps__step *q = mps__step_of(s);
@@ -177,7 +178,7 @@ static mps_status tell_failure(mps_stage *s, mps_status status)
     return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
 }
 
-/* The equation as it is in w->ppe; its terms are at the same place. */
+/* Solve the equation w->ppe as it is; its terms are in the same memory space. */
 static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
 {
     mps__step *q = mps__step_of(s);
@@ -189,7 +190,8 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     if (mps__ppe_rows(&w->ppe) > 0)
         status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
     if (w->solvers.hint.refused) return MPS_OK; /* not solved yet */
-    /* where another rank has failed its reason is told, not what its last values did to the solution */
+    /* if another rank has failed, report its reason, not the effect of its last values on the
+     * solution */
     if (status == MPS_E_SOLVER) MPS__TRY(mps__ranks_status(&w->ranks));
     if (status < 0) return tell_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
@@ -201,7 +203,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     q->info.ppe_divergence = result.divergence;
     q->info.ppe_unknowns = mps__ppe_rows(&w->ppe);
     q->setup_seconds = result.setup_seconds;
-    /* a body needs pressures that it can correct, however well they are known */
+    /* a body needs pressures that it can correct, whether they have converged or not */
     return q->load.what == MPS_LOAD_MASS && (status == MPS_OK || mps__body_carries(w))
                ? mps__step_mass(q)
                : MPS_OK;
@@ -213,7 +215,7 @@ static const mps_use solve_uses[] = {[LEAST] = {"pressure_value", MPS_USE_READ},
                                      {"unknown_numbers", MPS_USE_CHANGE},
                                      {"unknown_places", MPS_USE_READ}};
 
-/* Whether the equation is solved where it is. The added mass needs it on the host. */
+/* Whether the equation is solved in its memory space. The added mass needs it on the host. */
 static bool stays(const mps__step *q)
 {
     const mps__world *w = q->w;
@@ -221,7 +223,7 @@ static bool stays(const mps__step *q)
                                   mps__solvers_there(&w->solvers, &w->ppe.problem));
 }
 
-/* The equation comes to the host, and the pressures go back, and what was made of conditions. */
+/* Copy the equation to the host, solve it, and copy pressures and conditions back. */
 static mps_status solve_here(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
@@ -240,7 +242,7 @@ static mps_status solve_here(mps_stage *s)
     return status == MPS_OK ? mps__ppe_go(&w->ppe) : status;
 }
 
-/* Components without a level: the equation comes to the host. */
+/* Components without a pressure datum: copy the equation to the host. */
 static mps_status close_levels(mps_stage *s)
 {
     mps__ppe *e = &mps__step_of(s)->w->ppe;
@@ -251,11 +253,12 @@ static mps_status close_levels(mps_stage *s)
     return status;
 }
 
-/* Whether an equation on a device has such components is found by the solver there, before it begins. */
+/* On a device the solver tests for such components, before it begins. */
 static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
 {
     mps__world *w = mps__step_of(s)->w;
-    /* there its solver waits for each sum, and has no need of this one */
+    /* on many ranks the solver on a device waits for each reduction, so the test is a separate
+     * one */
     const bool joins = w->ppe.device && mps__ranks_many(&w->ranks);
     note_level(mps__step_of(s));
     if (joins) {
@@ -271,7 +274,7 @@ static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
     return solve_here(s);
 }
 
-/* Once, where it will be so in each step. */
+/* Log this once, as it is so in each step. */
 static void tell_apart(const mps__step *q)
 {
     mps__world *w = q->w;
@@ -292,7 +295,7 @@ static void tell_apart(const mps__step *q)
              t->device.ops.name, why);
 }
 
-/* The host solves what was assembled there. */
+/* Solve on the host an equation that was assembled on the device. */
 static mps_status solve_apart(mps_stage *s)
 {
     tell_apart(mps__step_of(s));

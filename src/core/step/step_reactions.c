@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Forces of solids that verbs reported in a step: their work, and what force probes show of them. */
+/* Forces of solids that verbs reported in a step: their work, and their contribution to force
+ * probes. */
 #include "step.h"
 #include <string.h>
 
@@ -13,7 +14,7 @@ static void find_values(mps__world *w, int32_t places, double *value)
     for (int32_t k = 0; k < 6 * places; k++) value[k] = mps_exact_value(&sum[k]);
 }
 
-/* A vector of the lab, in the frame of the tank. */
+/* Rotate a vector of the lab into the frame of the tank. */
 static void to_tank(const mps__pose *pose, const double *v, double *V)
 {
     for (int d = 0; d < 3; d++) {
@@ -22,7 +23,8 @@ static void to_tank(const mps__pose *pose, const double *v, double *V)
     }
 }
 
-/* Kinetic energy that fluid has beside its particles is no loss. What changed since the last step came or went with particles and models. */
+/* Kinetic energy of the fluid besides that of the particles is not a loss. Changes between steps
+ * are due to particles and models added or removed. */
 static void book_kinetic(const mps__reactions *r, double *const line[MPS__LINES], mps__budget *b)
 {
     double before = 0, now = 0;
@@ -67,7 +69,7 @@ static void add_reactions(void *step, const double *given)
     }
 }
 
-/* In its order among the other parts of the budget: sums of doubles depend on it. */
+/* Added in a fixed order among the parts of the budget: sums of doubles depend on it. */
 static mps_status book_reactions(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);

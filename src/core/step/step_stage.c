@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The stage of a step: what verbs see, the arrays of the library's channels, and their first values. */
+/* The stage of a step: view and channels for verbs, and first values of the library's channels. */
 #include "operators.h"
 #include "step.h"
 #include <string.h>
 
-/* ---- what verbs see ---- */
+/* ---- the view ---- */
 
 /* Scalars of the equation are numbers of the step. */
 static void set_scalars(mps__step *q)
@@ -24,7 +24,7 @@ static void *array_of(mps__world *w, int32_t channel)
     return mps__channels_array(&w->channels, &w->particles, channel);
 }
 
-/* A channel that a model may bring; NULL if none does. */
+/* An optional channel of a model; NULL: no model has it. */
 static const double *brought(mps__world *w, const char *name)
 {
     const int32_t k = mps__channels_find(&w->channels, name);
@@ -63,7 +63,8 @@ static void set_terms(mps__step *q)
     w->ppe.spare_x = array_of(w, MPS__UNKNOWN_PLACES);
 }
 
-/* Fluxes of pairs are complete from MPS_FORCE on; models may change their scalars until MPS_SOURCE. */
+/* Fluxes of pairs are complete from MPS_FORCE on; models may change their scalars until
+ * MPS_SOURCE. */
 static void show_flux(mps__step *q, const mps__call *call)
 {
     q->flux.wall_factor = q->terms.equation.wall_factor;
@@ -71,7 +72,7 @@ static void show_flux(mps__step *q, const mps__call *call)
     q->view.flux = call->hook >= MPS_FORCE ? q->flux : (mps_flux){.struct_size = sizeof q->flux};
 }
 
-/* What plug-ins and friction do is booked apart from what the library's other models do. */
+/* Effects of plug-ins and friction have budget lines of their own. */
 static void note_line(mps__step *q, const mps__call *call)
 {
     const int32_t line = mps__host_line(&q->w->host, call);
@@ -96,7 +97,7 @@ void mps__step_open(mps__step *q)
     set_flux(q);
     set_terms(q);
     w->voids.ready = false;
-    w->host.densities.agreed = false; /* particles came or went since MPS_POPULATE */
+    w->host.densities.agreed = false; /* particles were added or removed since MPS_POPULATE */
     q->line = MPS__LINE_OF_HOOK;
     w->host.step = q;
     w->host.before_call = before_call;
@@ -111,7 +112,8 @@ mps_status mps__step_run(mps__step *q, int32_t hook)
 
 /* ---- first values ---- */
 
-/* Weights of the near pairs, and their rows without gaps; where the radii are equal the far rows are the same. */
+/* Weights of the near pairs, and compact near rows; if the radii are equal the far rows are the
+ * same. */
 static mps_status weigh_pairs(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tank in a step: velocities of its solids, accelerations of the rigid tank, jumps of its velocity. */
+/* The tank in a step: velocities of its solids, accelerations of the rigid tank, jumps of its
+ * velocity. */
 #include "step.h"
 #include <string.h>
 
-/* Whether the tank has the same place in both poses. */
+/* Whether both poses are equal in position and rotation. */
 static bool same_place(const mps__pose *a, const mps__pose *b)
 {
     bool same = true;
@@ -12,7 +13,7 @@ static bool same_place(const mps__pose *a, const mps__pose *b)
     return same;
 }
 
-/* Whether the tank neither moves in this step nor was moving before it. */
+/* Whether the tank neither moves in this step nor moved before it. */
 static bool at_rest(const mps__step *q)
 {
     const mps__world *w = q->w;
@@ -23,8 +24,8 @@ static bool at_rest(const mps__step *q)
 
 /* ---- velocities and accelerations ---- */
 
-/* How the tank moved before this step: by its last pose, by its rates (a start with the tank), not at all; where bodies
- * move in it, as the solids did. */
+/* Motion of the tank before this step: by its last pose, by its rates (a start with the tank),
+ * none; if solids move in the tank, by the velocities of the solids. */
 enum { BY_POSE, BY_RATES, AT_REST, AS_BEFORE };
 
 typedef struct tank_fields {
@@ -35,7 +36,7 @@ typedef struct tank_fields {
     int32_t before;
 } tank_fields;
 
-/* Velocity of a point X of the tank over the last step, which is at `here` now. */
+/* Velocity of a point X of the tank over the last step; its present position is `here`. */
 MPS_ROW void velocity_before(const int dim, const mps_view *v, const tank_fields *f,
                              const double *X, const double here[3], double u[3])
 {
@@ -89,7 +90,8 @@ MPS_ROW void rest_row(const int dim, const mps_view *v, const tank_fields *f, in
 }
 MPS_ROWS(rest_rows, rest_row, tank_fields)
 
-/* Solids get the velocity that carries them to their next place; every particle the acceleration a rigid tank has there. */
+/* Set the velocity that moves solids to their next position, and for every particle the
+ * acceleration of the rigid tank. */
 static mps_status move_tank(mps_stage *s)
 {
     const mps__step *q = mps__step_of(s);
@@ -140,8 +142,9 @@ MPS_ROW void raise_acceleration(const int dim, const mps_view *v, const jump_fie
 }
 MPS_SUMS(raise_accelerations, raise_acceleration, jump_fields)
 
-/* A velocity that changes within a step by more than twice as much as in the last one, and than by 2 g, jumps. Velocities are means over a step, so
- * half a step lies on either side of the change: over dt alone a steady acceleration would jump where a step is cut short. */
+/* The velocity jumps if it changes within a step by more than twice as much as in the last one, and
+ * by more than 2 g. Velocities are means over a step, so the change takes half of both steps: over
+ * dt alone, a steady acceleration would count as a jump in a shortened step. */
 static void take_jump(void *step, const double *most)
 {
     mps__step *q = step;
@@ -180,9 +183,10 @@ const mps__pass mps__pass_jump = {.name = "jump",
                                   .uses = jump_uses,
                                   .run = note_jump};
 
-/* ---- bodies that the tank does not carry ---- */
+/* ---- solids that move in the tank ---- */
 
-/* Places and areas of solids at the end of the step have memory of their own only if a model writes them. */
+/* Positions and areas of solids at the end of the step have arrays of their own only if a model
+ * writes them. */
 mps_status mps__step_place_solids(mps__world *w)
 {
     const mps__particles *s = &w->particles;
@@ -205,7 +209,7 @@ mps_status mps__step_place_solids(mps__world *w)
     return MPS_OK;
 }
 
-/* The step is made: bodies are where it has put them. */
+/* After the step: copy positions and areas of moved solids to the particles. */
 void mps__step_keep_places(mps__world *w, const double *place, const double *area)
 {
     const mps__particles *s = &w->particles;
@@ -230,7 +234,7 @@ MPS_ROW void turn_row(const int dim, const mps_view *v, const turn_fields *f, in
 }
 MPS_ROWS(turn_rows, turn_row, turn_fields)
 
-/* Area vectors turn with the tank: they have room of their own then. */
+/* Area vectors in the lab have an array of their own if the tank is rotated. */
 mps_status mps__step_turn_areas(mps__world *w)
 {
     const mps__particles *s = &w->particles;
@@ -249,7 +253,7 @@ void mps__step_find_areas(mps__world *w)
     mps_view v;
     if (w->work.area == s->area) return;
     mps__world_view(w, &v);
-    v.area = s->area; /* the others are made here */
+    v.area = s->area; /* the rotated ones are computed here */
     w->host.everywhere = true;
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
     const turn_fields f = {mps__seen(w, s->area), mps__given(w, w->work.turned)};

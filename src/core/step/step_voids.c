@@ -21,7 +21,7 @@ static double given_or(double value, double usual)
     return value == 0 ? usual : value;
 }
 
-/* The caller's config with the defaults put in. */
+/* The caller's config, with defaults filled in. */
 static mps_status read_config(mps__context *c, int32_t dim, const mps_voids_config *given,
                               mps_voids_config *own)
 {
@@ -48,7 +48,7 @@ static bool same_config(const mps_voids_config *a, const mps_voids_config *b)
            a->least == b->least;
 }
 
-/* A particle that is nearest to a cell must be known to the ranks of all others that might be. */
+/* The particle nearest to a cell must be known on the ranks of all other candidates. */
 static mps_status check_reach(const mps__world *w, const mps_voids_config *c)
 {
     const double wanted = 2 * c->channel * w->setup.dp;
@@ -97,7 +97,7 @@ int mps_stage_voids(mps_stage *s, const mps_voids_config *config, mps_voids *voi
     if (s->hook < MPS_PREPARE)
         return mps_stage_fail(s, "mps_stage_voids() was called before MPS_PREPARE: regions of "
                                  "particles are not known yet");
-    mps__host_take(s); /* voids are found and looked at cell by cell */
+    mps__host_take(s); /* the algorithm runs on the host */
     mps__world *w = ((mps__step *)h->step)->w;
     mps_status status = read_config(h->context, w->setup.dim, config, &own);
     if (status == MPS_OK) status = mps__struct_check(h->context, "mps_voids", voids);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields that a step changes are kept beside themselves until it has succeeded. */
+/* Backup copies of the fields that a step changes, until it has succeeded. */
 #include "undo.h"
 #include <string.h>
 
-/* What the last pass of a step writes, after all that may fail on the host. */
+/* Whether the last pass of a step writes the field, after everything that can fail on the host. */
 static bool is_written_last(const mps__world *w, const mps__field *f)
 {
     const mps__particles *s = &w->particles;
@@ -11,7 +11,8 @@ static bool is_written_last(const mps__world *w, const mps__field *f)
     return data == &s->load || data == &s->held || data == &s->ref || data == &s->area;
 }
 
-/* All that calls write; of positions the step itself keeps the old ones. A device may fail in each loop and each copy, to the last. */
+/* Fields that calls write; the step itself keeps the old positions. A device can fail in each loop
+ * and each copy, up to the last. */
 static bool is_kept(mps__world *w, const mps__field *f)
 {
     if (w->host.twins.step && (f->data == (void **)&w->particles.x || is_written_last(w, f)))

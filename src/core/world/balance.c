@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Even work on all ranks: space is cut anew when one of them works longer than the others. Results do not depend on cuts, so these may follow
- * the clock. */
+/* Load balancing: space is repartitioned when one rank works longer than the others. Results do not
+ * depend on the partition, so it may depend on the clock. */
 #include "world_ranks.h"
 #include <math.h>
 
-/* Steps whose work is compared, and the largest work over the mean that is left as it is. */
+/* Steps between comparisons; largest work over the mean that is tolerated. */
 enum { STEPS = 50 };
 static const double UNEVEN = 1.05;
 /* Limits of the measured cost: a rank that other programs interrupt looks slower than it is. */
 static const double cost_least = 0.2, cost_most = 5;
 
-/* Work of a particle over that of fluid: solids without fluid about them have no rows, walls with it no gradients. */
+/* Work of a particle relative to fluid: solids without fluid in reach have no rows, walls with
+ * fluid no gradients. */
 static double load_of(const mps__particles *s, int64_t i)
 {
     if (s->kind[i] == MPS_FLUID) return 1;
@@ -23,7 +24,8 @@ float mps__world_weight(const void *world, int64_t i)
     return (float)(w->balance.cost * load_of(&w->particles, i));
 }
 
-/* Compare the work of the ranks, and what it cost for a unit of load: the next cuts give less to those that took longer. */
+/* Compare the work of the ranks and their cost for a unit of load: the next partition gives less to
+ * slower ranks. */
 static void compare(mps__world *w)
 {
     enum { WORK, LOAD, VALUES };
@@ -50,7 +52,8 @@ void mps__world_balance(mps__world *w, double seconds)
     mps__balance *b = &w->balance;
     if (!mps__ranks_many(&w->ranks)) return;
     b->work += seconds - (w->ranks.seconds - b->waited);
-    if (w->state.step == 1) w->ghosts.recut = true; /* the first cuts did not know the dry walls */
+    /* the first partition did not know the dry walls */
+    if (w->state.step == 1) w->ghosts.recut = true;
     if (++b->steps < STEPS) return;
     compare(w);
     b->work = 0;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The arrays of the store are exchanged for larger ones, which are filled by all ranks; afterwards they are put back. */
+/* Collecting particles: the arrays of the store are replaced by larger ones, which all ranks fill,
+ * and restored afterwards. */
 #include "gather.h"
 #include <string.h>
 
 /* ---- stores ---- */
 
-/* Exchange the store for an empty one with room for n particles. */
+/* Replace the store by an empty one with capacity for n particles. */
 static mps_status swap_out(mps__world *w, int64_t n)
 {
     mps__particles *s = &w->particles;
@@ -49,7 +50,8 @@ void mps__gather_end(mps__world *w)
 
 /* ---- messages ---- */
 
-/* Packets of the owned particles, or of the solids among them, each with the place of the last search behind its fields. */
+/* Packets of the owned particles, or of the solids among them; the position of the last search
+ * follows the fields. */
 static int64_t pack_own(const mps__world *w, bool solids, size_t bytes, char *out)
 {
     const mps__particles *s = &w->particles;
@@ -67,7 +69,7 @@ static int64_t pack_own(const mps__world *w, bool solids, size_t bytes, char *ou
     return count;
 }
 
-/* Make a store of packets; `listed` takes the places of the last search. */
+/* Make a store from packets; `listed` gets the positions of the last search. */
 static mps_status unpack_all(mps__world *w, int64_t n, size_t bytes, const char *in, double *listed)
 {
     mps__particles *s = &w->particles;
@@ -83,7 +85,7 @@ static mps_status unpack_all(mps__world *w, int64_t n, size_t bytes, const char 
     return MPS_OK;
 }
 
-/* Order by the cells of the last search and ids, as one rank has them; or by ids alone. */
+/* Order by the cells of the last search and ids, as on a single rank; or by ids alone. */
 static mps_status order_all(mps__world *w, bool by_id, double *listed)
 {
     mps__particles *s = &w->particles;
@@ -116,7 +118,7 @@ static mps_status order_all(mps__world *w, bool by_id, double *listed)
     return mps__world_find_walls(w);
 }
 
-/* Blocks of all ranks: at rank 0, or everywhere. `in`: out, its own memory. */
+/* Collect the blocks of all ranks: on rank 0, or on all. `in`: out, newly allocated. */
 static mps_status collect(mps__world *w, bool everywhere, int64_t own, size_t bytes,
                           const char *out, char **in, int64_t *all)
 {
@@ -157,7 +159,7 @@ static mps_status gather(mps__world *w, bool solids)
                                     : MPS_E_NOMEM;
         if (status == MPS_OK) status = order_all(w, solids, w->gathered.listed);
         if (status == MPS_OK) w->lists.listed_at = w->gathered.listed;
-    } else if (status == MPS_OK) /* all is at rank 0 */
+    } else if (status == MPS_OK) /* rank 0 has all */
         status = unpack_all(w, 0, bytes, NULL, NULL);
     mps__free(w->context, in);
     if (status < 0) mps__gather_end(w);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dummies and their walls: which belong together, and areas of walls that were given without. */
+/* Links between dummies and their walls, and areas of walls that were added without. */
 #include "world_ranks.h"
 
 /* The shadows of a plate belong to the face before them. */
@@ -14,7 +14,8 @@ static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
                0;
 }
 
-/* Each dummy belongs to its nearest wall particle (of two as near: the older). Beyond the far radius no fluid sees it either. */
+/* Link each dummy to its nearest wall particle (of two at the same distance: the older). Beyond the
+ * far radius no fluid is its neighbour either. */
 static void link_dummies(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -41,7 +42,7 @@ static void link_dummies(mps__world *w)
     }
 }
 
-/* Sum of the ways from its dummies to wall particle i. All candidates are there. */
+/* Sum of the vectors from the dummies of wall particle i to it; needs all candidates. */
 static void sum_ways(const mps__world *w, int64_t i, double *sum)
 {
     const mps__particles *s = &w->particles;
@@ -55,7 +56,7 @@ static void sum_ways(const mps__world *w, int64_t i, double *sum)
     }
 }
 
-/* A wall particle given without an area faces away from its dummies. */
+/* Estimate missing areas: a wall particle faces away from its dummies. */
 static void estimate_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;

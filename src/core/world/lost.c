@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles that left the domain or stand behind a wall. */
+/* Particles that left the domain or are behind a wall. */
 #include "world_ranks.h"
 #include <string.h>
 
-/* The last particles are no more, but they stay where they are in memory: what comes now may fail. `all`: on all ranks. */
+/* Remove the last particles, but keep them in memory: later parts of the step may fail. `all`:
+ * number on all ranks. */
 static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
@@ -23,7 +24,7 @@ void mps__world_take_back(mps__world *w)
     if (w->lists.gone > 0) set_aside(w, -w->lists.aside, -w->lists.gone);
 }
 
-/* Move the particles with `gone` behind the others. */
+/* Move the particles marked in `gone` behind the others. */
 static mps_status part_lost(mps__world *w, const bool *gone, int64_t lost)
 {
     mps__particles *s = &w->particles;
@@ -38,7 +39,8 @@ static mps_status part_lost(mps__world *w, const bool *gone, int64_t lost)
     return status;
 }
 
-/* Apply the policy to the particles with `gone`, if any; the text says where they are, and names the one with the least id. */
+/* Apply the policy to the particles marked in `gone`, if any; the text names their location and the
+ * one with the least id. */
 static mps_status handle_lost(mps__world *w, const bool *gone, const char *where)
 {
     const mps__particles *s = &w->particles;
@@ -100,20 +102,20 @@ MPS_ROW void look_outside(const int dim, const mps_view *v, const box *f, int64_
 }
 MPS_ROWS(outside_rows, look_outside, box)
 
-/* None is gone, nor are ghosts, which loops leave out. */
+/* Also for ghosts, which the loops skip. */
 static void clear_gone(const mps__world *w)
 {
     memset(w->work.gone, 0, (size_t)w->particles.n * sizeof *w->work.gone);
 }
 
-/* The maximum: whether any row is. */
+/* The maximum: whether any particle is outside. */
 MPS_ROW void note_outside(const int dim, const mps_view *v, const box *f, int64_t i, double *any)
 {
     if (is_outside(dim, v, f, i)) *any = 1;
 }
 MPS_SUMS(any_outside, note_outside, box)
 
-/* Whether any liquid is outside, where the device of a step has the particles. */
+/* Whether any liquid is outside, by a loop on the device of the step. */
 static mps_status look_out_there(mps__world *w, const mps_view *v, const box *b, bool *any)
 {
     double most = 0;
@@ -129,7 +131,7 @@ mps_status mps__world_leave_domain(mps__world *w)
     bool any = true;
     mps_view v;
     if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* bodies move in the tank */
+    MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* solids move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
     if (!w->ahead.holds && mps__world_there(w) && !mps__ranks_many(&w->ranks))
@@ -142,12 +144,13 @@ mps_status mps__world_leave_domain(mps__world *w)
     return handle_lost(w, w->work.gone, "left the domain");
 }
 
-/* What a row looks at to know whether it is behind a wall: pairs of the search, and solids in the frame of the tank. */
+/* Arguments of the test whether a particle is behind a wall: pairs of the search, and solids in the
+ * frame of the tank. */
 typedef struct rims {
     const int64_t *begin, *middle; /* near candidates of a row */
-    const int32_t *count;          /* NULL; or all candidates are looked at, so many */
+    const int32_t *count;          /* NULL, or numbers of all candidates, which are tested then */
     const int32_t *col, *plate;
-    const uint8_t *rim; /* not 0: the row may have dummies beside it */
+    const uint8_t *rim; /* not 0: the particle may have dummies nearby */
     const double *ref, *area;
     bool *gone;
 } rims;
@@ -167,7 +170,8 @@ MPS_ROW double distance2(const int dim, const mps_view *v, int64_t i, int64_t j)
     return sum;
 }
 
-/* Is particle i, `r2` from a dummy, beyond the face this dummy stands behind, and is no wall nearer than the dummy? */
+/* Whether particle i, `r2` from a dummy, is beyond the face of this dummy, and no wall is nearer
+ * than the dummy. */
 MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, int64_t dummy,
                     double r2)
 {
@@ -201,7 +205,7 @@ MPS_ROW void look_behind(const int dim, const mps_view *v, const rims *f, int64_
 }
 MPS_ROWS(spilled_rows, look_behind, rims)
 
-/* Arrays where loops run. */
+/* Arrays in the memory space of the loops. */
 static rims rims_of(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
@@ -216,11 +220,12 @@ static rims rims_of(const mps__world *w)
                   .gone = w->work.gone};
 }
 
-/* ---- what a step tells the next one ---- */
+/* ---- next-step flags ---- */
 
 typedef struct aheads {
     box box;
-    rims rims; /* `rim` NULL: rows are not here, or plates hide some of their candidates */
+    /* `rim` NULL: rows are not in this memory space, or plates occlude some candidates */
+    rims rims;
     const double *searched, *u;
     mps__carry carry;
 } aheads;
@@ -269,7 +274,8 @@ void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS
 
 /* ---- behind walls ---- */
 
-/* Whether any liquid is behind a wall, where the device of a step has rows: most steps need them nowhere else. */
+/* Whether any liquid is behind a wall, if the device of the step has rows: most steps do not need
+ * them on the host. */
 static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
 {
     double most[MPS__AHEADS] = {0};
@@ -282,14 +288,15 @@ static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
     return mps__twins_leave(&w->host.twins);
 }
 
-/* Whether the last step has told that there is none; its rows are still those of today. */
+/* Whether the last step has found none, and its rows are still valid. */
 static bool is_told(const mps__world *w)
 {
     return w->ahead.holds && w->ahead.searches == w->lists.neighbours.searches &&
            w->ahead.most[MPS__AHEAD_SPILLED] == 0;
 }
 
-/* Liquid that ran over the rim of an open tank touches its walls from behind. There they would press it as if it stood before them. */
+/* Remove liquid that has flowed over the edge of an open tank and touches its walls from behind: it
+ * would exert pressure on them as if it were in front. */
 mps_status mps__world_leave_tank(mps__world *w)
 {
     bool any = true;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles near thin plates: where their lines of sight start, and that none passes a plate. */
+/* Particles near thin plates: start points of their lines of sight; no particle passes a plate. */
 #include "plates.h"
 #include "loop.h"
 #include "world_ranks.h"
 #include <string.h>
 
-/* In spacings: how far above their face the lines of sight of walls start, and the least distance
- * of fluid to the plane of a plate. */
+/* In spacings: distance of the start points of walls from their face; least distance of fluid from
+ * the plane of a plate. */
 static const double above_face = 1e-5, off_plane = 1e-2;
 
 static void wall_sight(const mps__world *w, int64_t i, double at[3])
@@ -18,14 +18,14 @@ static void wall_sight(const mps__world *w, int64_t i, double at[3])
                 (size > 0 ? above_face * w->setup.dp * area[d] / size : 0);
 }
 
-/* Particles near plates, the plates, and the pose of the tank. */
+/* Near-plate particles, the plates, and the pose of the tank. */
 typedef struct look_fields {
     const int32_t *kind;
     const double *x;
     const mps__screen *screen;
     mps__seer *seer;
     int32_t screens;
-    double least; /* distance of fluid to the plane of a plate */
+    double least; /* distance of fluid from the plane of a plate */
     const double *centre, *shift, *rotation;
 } look_fields;
 
@@ -44,7 +44,8 @@ static look_fields fields_of(const mps__world *w)
                          .rotation = m->now.rotation};
 }
 
-/* Fluid in the very plane of a plate, beyond its edge, would see both of its faces: it is put on one side. */
+/* Fluid exactly in the plane of a plate, beyond its edge, would see both faces: move it to one
+ * side. */
 MPS_ROW void fluid_sight(const int dim, const look_fields *f, int64_t i, double at[3])
 {
     mps__tank_place(dim, f->centre, f->shift, f->rotation, f->x + i * dim, at);
@@ -68,7 +69,8 @@ static void sight(const mps__world *w, const look_fields *f, int64_t i, double a
         memcpy(at, s->ref + i * w->setup.dim, (size_t)w->setup.dim * sizeof *at);
 }
 
-/* Near enough to be, until the next search, the partner of a particle or of a shadow beyond some screen. */
+/* Whether, until the next search, X can be the partner of a particle or of a shadow beyond an
+ * occluder. */
 static bool near_screen(const mps__world *w, const double *X)
 {
     const double depth = fmax(3 * w->setup.dp, w->setup.re_far),
@@ -115,7 +117,7 @@ mps_status mps__plates_find(mps__world *w)
     return MPS_OK;
 }
 
-/* Particle k of those near a plate. Solids stay where they are in the tank. */
+/* Near-plate particle k. Solids are at rest in the tank. */
 MPS_ROW void look_row(const int dim, const look_fields *f, int64_t k)
 {
     mps__seer *seer = &f->seer[k];
@@ -132,7 +134,8 @@ void mps__plates_look(mps__world *w)
     mps__loop_run(&w->pool.parallel, &look_rows, w->setup.dim, w->lists.screens.seers, &f);
 }
 
-/* Back to the height it had, with the velocity along the plate. */
+/* Restore the distance from the plate, and keep only the velocity along the plate, unless it
+ * recedes. */
 static void stop(mps__world *w, const mps__pose *end, int64_t i, const mps__screen *s,
                  double height, double X[3])
 {

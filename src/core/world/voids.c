@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory of the raster of voids, and sets of provisional components. */
+/* Memory of the void raster, and union-find of provisional components. */
 #include "voids.h"
 #include <math.h>
 
@@ -41,9 +41,10 @@ mps_status mps__voids_push(mps__voids *v, int32_t **list, int64_t *room, int64_t
     return mps__grow(v->context, (void **)list, room, used, 2 * used + 64, sizeof **list);
 }
 
-/* ---- who reaches a cell ---- */
+/* ---- cells within cover and channel ---- */
 
-/* Square of the least, or largest, distance of the places of a cell from the centre of another one [side^2]. */
+/* Square of the least, or largest, distance of the points of a cell from the centre of another one
+ * [side^2]. */
 static double square_of(const int32_t at[3], int32_t dim, bool largest)
 {
     double square = 0;
@@ -54,7 +55,7 @@ static double square_of(const int32_t at[3], int32_t dim, bool largest)
     return square;
 }
 
-/* Put an offset where it belongs by its distance, behind those of the same one. */
+/* Insert an offset in ascending order of distance, behind equal ones. */
 static void insert_offset(mps__voids *v, const mps__void_offset *o)
 {
     int32_t k = v->offsets++;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the cells of the band are. Inside of the liquid most cells have a particle, or have one beside them, and far from it there is none within
- * the window: distances are computed for the cells between only. */
+/* Classification of the cells of the band. Most cells inside the liquid contain a particle or are
+ * next to one, and far from it none is within the window: distances are computed only for the cells
+ * in between. */
 #include "loop.h"
 #include "plates.h"
 #include <string.h>
@@ -15,7 +16,7 @@ static bool is_hidden(const mps__voids *v, const mps__world *w, const int32_t at
     return mps__plates_hide(w, X, i);
 }
 
-/* Whether a cell beside cell `at` is in the band. */
+/* Whether the cell at offset `by` from cell `at` is in the band. */
 static inline bool is_there(const mps__voids *v, const int32_t at[3], const int32_t by[3])
 {
     bool there = true;
@@ -26,7 +27,7 @@ static inline bool is_there(const mps__voids *v, const int32_t at[3], const int3
     return there;
 }
 
-/* Whether all cells from which one may be reached are. */
+/* Whether the whole window around a cell is in the band. */
 static inline bool is_inner(const mps__voids *v, const int32_t at[3])
 {
     const int32_t low[3] = {-v->window, -v->window, -v->window},
@@ -62,14 +63,14 @@ double mps__voids_nearest(const mps__voids *v, const mps__world *w, int64_t cell
     return *row < 0 ? INFINITY : least;
 }
 
-/* ---- a part of the band: some slabs ---- */
+/* ---- parts of the band ---- */
 
 typedef struct part_fields {
     mps__voids *v;
     const mps__world *w;
     int64_t n;
-    int32_t slabs; /* of a part */
-    bool all;      /* cells beside void or not: other ranks may need them */
+    int32_t slabs; /* per part */
+    bool all;      /* all cells, not only those next to void: other ranks may need them */
 } part_fields;
 
 static void range_of(const part_fields *f, int64_t part, int32_t *begin, int32_t *end)
@@ -78,8 +79,9 @@ static void range_of(const part_fields *f, int64_t part, int32_t *begin, int32_t
     *end = *begin + f->slabs < f->v->band ? *begin + f->slabs : f->v->band;
 }
 
-/* Mark the cells of the particle's octant that it reaches: its own one and those beside it on its side, so that few cells of the liquid are left in
- * doubt. `off`: place from the centre of its cell `at`; only slabs begin .. end-1. */
+/* Mark the cells of the particle's octant that it reaches: its own one and the neighbours on its
+ * side, so that few cells of the liquid remain undecided. `off`: position relative to the centre of
+ * its cell `at`; only slabs begin .. end-1. */
 MPS_ROW void mark(const int dim, mps__voids *v, const int32_t at[3], const double off[3],
                   int32_t begin, int32_t end)
 {
@@ -102,7 +104,8 @@ MPS_ROW void mark(const int dim, mps__voids *v, const int32_t at[3], const doubl
     }
 }
 
-/* The same of a cell with others on all sides, and those that share a side with it where all of them are surely reached. */
+/* mark() for a cell with neighbours on all sides; also marks cells that share a side with it if all
+ * of them are always reached. */
 MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const double off[3])
 {
     uint8_t *own = v->sure + cell;
@@ -127,10 +130,12 @@ MPS_ROW void mark_inner(const int dim, const mps__voids *v, int64_t cell, const 
     }
 }
 
-/* What cells know of the particles in them; one may stand a little beyond the raster, e.g. walls on its upper side. */
+/* Flags of v->taken; a particle may be slightly outside of the raster, e.g. a wall on its upper
+ * side. */
 enum { TAKEN = 1, TAKEN_BEYOND = 2 };
 
-/* Put particle i into its cell, or the nearest one of the raster, if that is in slabs begin .. end-1. */
+/* Assign particle i to its cell, or to the nearest one of the raster, if that is in slabs begin ..
+ * end-1. */
 MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t end)
 {
     const int32_t far = v->window + 1;
@@ -161,7 +166,7 @@ MPS_ROW void put(const int dim, mps__voids *v, int32_t i, int32_t begin, int32_t
         mark(dim, v, at, off, begin, end);
 }
 
-/* Whether one of `count` cells at distances of `step` about each of the cells is marked. */
+/* Mark cells with a marked one at up to `window` strides of `step`. */
 static void widen(const uint8_t *from, uint8_t *to, int64_t lines, int64_t length, int64_t step,
                   int32_t window)
 {
@@ -174,7 +179,8 @@ static void widen(const uint8_t *from, uint8_t *to, int64_t lines, int64_t lengt
         }
 }
 
-/* Marks about the particles of a slab, within it. In 3-D lines come first, by way of `what`. */
+/* Set v->wide around the particles of a slab, within it. In 3-D by way of lines, with `what` as
+ * buffer. */
 static void mark_slab(mps__voids *v, int32_t z)
 {
     const int64_t at = z * v->plane;
@@ -203,7 +209,8 @@ MPS__LOOP(put_parts, put_row, part_fields)
 
 /* ---- classes ---- */
 
-/* First guess: covered where a particle is surely near, deep where there is none, liquid where only a distance tells. */
+/* First guess: covered if a particle is surely within the channel, deep if none can be, liquid if a
+ * distance has to decide. */
 static void guess_line(mps__voids *v, int64_t first, int64_t z)
 {
     const uint8_t *sure = v->sure + first;
@@ -223,7 +230,7 @@ static void guess_line(mps__voids *v, int64_t first, int64_t z)
     }
 }
 
-/* What a cell is that is not deep. */
+/* Class of a cell that is not deep. */
 static uint8_t cover_of(const mps__voids *v, const mps__world *w, int64_t c)
 {
     int32_t row;
@@ -233,7 +240,7 @@ static uint8_t cover_of(const mps__voids *v, const mps__world *w, int64_t c)
                                                                     : MPS__CELL_NARROW;
 }
 
-/* Solid cells are what they are, and what a plate may hide is not sure. */
+/* Set solid cells; where a plate may occlude, a covered cell is undecided. */
 static void mask_line(mps__voids *v, int64_t first)
 {
     const int64_t n = v->cells[0];
@@ -246,7 +253,7 @@ static void mask_line(mps__voids *v, int64_t first)
     }
 }
 
-/* Most cells of a line are settled by the guess: distances of the others. */
+/* Compute distances for the cells of a line that the guess has not decided. */
 static void settle_line(const part_fields *f, int64_t begin, int64_t end)
 {
     mps__voids *v = f->v;

@@ -13,7 +13,7 @@ static mps_status add_face(mps__voids *v, const int32_t face[MPS__VOID_FACE])
     return MPS_OK;
 }
 
-/* Row of the particle nearest to a cell of the band, -1: none of this rank. */
+/* Index of the particle nearest to a cell of the band, -1: none on this rank. */
 static int32_t row_of(const mps__voids *v, const mps__world *w, int64_t c)
 {
     int32_t row = -1;
@@ -40,7 +40,8 @@ static mps_status add_faces_of(mps__voids *v, const mps__world *w, int64_t c)
     return MPS_OK;
 }
 
-/* Marks the cells of a line that may have faces: those of components with a plate or another label beside them, and at the end of the raster. */
+/* Mark the cells of a line that may have faces: those of components next to a plate or to another
+ * label, and at the end of the raster. */
 static void mark_line(const mps__voids *v, int64_t begin, uint8_t *any)
 {
     const int64_t n = v->cells[0];
@@ -64,7 +65,7 @@ static void mark_line(const mps__voids *v, int64_t begin, uint8_t *any)
 mps_status mps__voids_faces(mps__voids *v, const mps__world *w)
 {
     const int64_t n = v->cells[0];
-    uint8_t *any = v->wide; /* not needed any more */
+    uint8_t *any = v->wide; /* free at this point */
     v->faces = 0;
     for (int64_t begin = 0; v->count > 1 && begin < v->band * v->plane; begin += n) {
         const uint8_t *next = any, *end = any + n;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Components of the void. Runs of deep cells along a line are joined in the order of the cells; then the void grows into narrow cells. */
+/* Components of the void. Runs of deep cells along a line are joined in the order of the cells;
+ * then the components grow into narrow cells. */
 #include "world.h"
 #include <string.h>
 
@@ -20,7 +21,7 @@ static mps_status begin_part(mps__voids *v, int32_t *part)
 
 /* ---- runs of deep cells ---- */
 
-/* Whether a run and another one in the line `step` cells before hang together; axis d lies across. */
+/* Whether a run is connected to another one in the line `step` cells before; axis d is across. */
 static bool touches(const mps__voids *v, const mps__void_run *a, const mps__void_run *b,
                     int64_t step, int32_t d)
 {
@@ -33,7 +34,8 @@ static bool touches(const mps__voids *v, const mps__void_run *a, const mps__void
     return false;
 }
 
-/* Join runs first .. last-1, of one line, with those of the line before along axis d, of which `other` is the first. */
+/* Join runs first .. last-1 of a line with those of the previous line along axis d, which begin at
+ * `other`. */
 static void join_lines(mps__voids *v, int64_t first, int64_t last, int64_t other, int32_t d)
 {
     const int64_t step = v->step[d];
@@ -50,7 +52,8 @@ static void join_lines(mps__voids *v, int64_t first, int64_t last, int64_t other
     }
 }
 
-/* The first cell from `from` on that is not deep, or `end`. Eight cells at once, as runs are long. */
+/* The first cell from `from` on that is not deep, or `end`. Tests eight cells at once, as runs are
+ * long. */
 static const uint8_t *end_of_deep(const uint8_t *from, const uint8_t *end)
 {
     static const uint64_t deep = MPS__CELL_DEEP * UINT64_C(0x0101010101010101);
@@ -62,7 +65,6 @@ static const uint8_t *end_of_deep(const uint8_t *from, const uint8_t *end)
     return from;
 }
 
-/* Runs of a line. */
 static mps_status find_runs(mps__voids *v, int64_t begin)
 {
     const int64_t end = begin + v->cells[0];
@@ -94,7 +96,7 @@ static void join_above(mps__voids *v, const mps__void_run *r)
         }
 }
 
-/* First run that ends behind a cell. */
+/* First run that ends after a cell. */
 static int64_t run_behind(const mps__voids *v, int64_t cell)
 {
     int64_t low = 0, high = v->runs;
@@ -142,7 +144,7 @@ static mps_status join_deep(mps__voids *v)
 
 /* ---- numbers ---- */
 
-/* Provisional components that stand for themselves get the cells of those that were joined to them; the largest. */
+/* Add the cells of provisional components to their representatives. @return the largest */
 static int32_t gather_parts(mps__voids *v)
 {
     int32_t largest = -1;
@@ -155,7 +157,8 @@ static int32_t gather_parts(mps__voids *v)
     return largest;
 }
 
-/* The largest is number 0, the others follow in the order of their first cells; small ones get none. */
+/* The largest is number 0, the others are numbered in the order of their first cells; small ones
+ * get none. */
 static mps_status number_parts(mps__voids *v)
 {
     const double least = fmax(1, v->config.least / mps_pow(v->config.side, v->dim));
@@ -170,7 +173,7 @@ static mps_status number_parts(mps__voids *v)
         v->number[largest] = 0;
         v->size[v->count++] = (int32_t)v->found[largest];
     }
-    /* the void above the band, number 0, has its first cell in the band where it reaches down */
+    /* the void above the band, number 0, has its first cell in the band if it extends into it */
     for (int32_t i = 1; i <= v->parts; i++) {
         const int32_t k = i % v->parts, root = mps__voids_root(v->parent, k);
         if (v->number[root] == INT32_MIN) {
@@ -184,7 +187,7 @@ static mps_status number_parts(mps__voids *v)
     return MPS_OK;
 }
 
-/* Labels of the band before narrow cells have any. */
+/* Labels of the band before narrow cells are labelled. */
 static void label_runs(mps__voids *v)
 {
     for (int64_t line = 0; line < v->band * v->plane / v->cells[0]; line++) {
@@ -214,7 +217,7 @@ static mps_status grow_into(mps__voids *v, int64_t c, int32_t label, int64_t *ta
     return MPS_OK;
 }
 
-/* Marks cells of a slab that are not deep and have deep ones beside them. */
+/* Mark cells of a slab that are not deep and have a deep neighbour. */
 static void mark_rim(const mps__voids *v, int32_t z, uint8_t *rim)
 {
     const uint8_t *what = v->what + z * v->plane;
@@ -232,7 +235,7 @@ static void mark_rim(const mps__voids *v, int32_t z, uint8_t *rim)
         rim[c] &= what[c] == MPS__CELL_COVERED || what[c] == MPS__CELL_NARROW;
 }
 
-/* The component of the first deep cell beside one, -1: none. */
+/* The component of the first deep neighbour, -1: none. */
 static int32_t label_beside(const mps__voids *v, int64_t c)
 {
     int32_t at[3];
@@ -247,7 +250,7 @@ static int32_t label_beside(const mps__voids *v, int64_t c)
 
 static mps_status grow_first(mps__voids *v, const mps__world *w, int64_t *tail)
 {
-    uint8_t *rim = v->wide; /* not needed any more */
+    uint8_t *rim = v->wide; /* free at this point */
     for (int32_t z = 0; z < v->band; z++) {
         const uint8_t *next = rim, *end = rim + v->plane;
         mark_rim(v, z, rim);
@@ -279,7 +282,7 @@ static mps_status grow_narrow(mps__voids *v, const mps__world *w)
     return MPS_OK;
 }
 
-/* Cells above the band, unless they have their labels from an earlier search. */
+/* Label cells above the band, unless an earlier search has done so. */
 static void fill_above(mps__voids *v)
 {
     const int64_t end = (v->constant < v->slabs ? v->constant : v->slabs) * v->plane;

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Liquid particles in the raster of voids: which they are, and in which cells. Cells have chains of particles, whose order does not matter. */
+/* Liquid particles in the void raster: selection, and assignment to cells. Cells have linked lists
+ * of particles, whose order does not matter. */
 #include "loop.h"
 #include "world.h"
 
-/* Walls with fluid nearer than this are liquid [dp]. */
+/* Walls with fluid nearer than this count as liquid [dp]. */
 static const double WET = 1.5;
 
 typedef struct liquid_fields {
     const int32_t *kind, *region;
-    const uint8_t *ghost;  /* NULL: none is one */
+    const uint8_t *ghost;  /* NULL: no ghosts */
     const double *x, *ref; /* [n*dim] in the lab; of solids in the frame of the tank */
     double *place;
     int32_t *slab;
@@ -17,7 +18,8 @@ typedef struct liquid_fields {
     mps_tank_pose tank;
 } liquid_fields;
 
-/* A place of the tank's frame becomes one of the raster. Particles beyond it belong to its first or last slab. */
+/* Convert a position in the tank's frame to raster units. @return its slab; particles outside
+ * belong to the first or last one */
 MPS_ROW int32_t put_place(const int dim, const liquid_fields *f, double *X)
 {
     for (int d = 0; d < dim; d++) X[d] = (X[d] - f->origin[d]) / f->side;
@@ -25,7 +27,7 @@ MPS_ROW int32_t put_place(const int dim, const liquid_fields *f, double *X)
     return X[dim - 1] < f->slabs ? (int32_t)X[dim - 1] : f->slabs - 1;
 }
 
-/* Fluid. Regions of ghosts may be old: they get what their owners find. */
+/* Fluid. Regions of ghosts may be stale: a halo exchange of the results follows. */
 MPS_ROW void fluid_row(const int dim, const liquid_fields *f, int64_t i, double *most)
 {
     double *X = f->place + i * dim;
@@ -66,14 +68,14 @@ static mps_status make_room(mps__voids *v, int64_t n)
     return mps__grow(c, (void **)&v->slab, &r->slab, 0, room, sizeof *v->slab);
 }
 
-/* Where rows put what they find: v->place and v->slab, or memory of a device. */
+/* Output arrays of the row functions: v->place and v->slab, or device memory. */
 typedef struct found {
     mps__device *device;
     double *place;
     int32_t *slab;
 } found;
 
-/* Places of liquid particles, and the highest slab of fluid of all ranks. */
+/* Positions of liquid particles, and the highest slab of fluid over all ranks. */
 static mps_status find_rows(const found *k, const mps__voids *v, mps__world *w, const mps_stage *s,
                             double *highest)
 {
@@ -101,7 +103,7 @@ static mps_status find_rows(const found *k, const mps__voids *v, mps__world *w, 
     return MPS_OK;
 }
 
-/* The same at the device of a step: places and slabs come. */
+/* find_rows() on the device of the step; copies positions and slabs to the host. */
 static mps_status find_there(mps__device *d, mps__voids *v, mps__world *w, const mps_stage *s,
                              double *highest)
 {
@@ -116,7 +118,8 @@ static mps_status find_there(mps__device *d, mps__voids *v, mps__world *w, const
     MPS__TRY(status);
     mps__device_download(d, v->place, k.place, places);
     mps__device_download(d, v->slab, k.slab, slabs);
-    if (w->lists.screens.count > 0) mps__seen(w, w->particles.x); /* plates look from there */
+    /* needed on the host for occlusion */
+    if (w->lists.screens.count > 0) mps__seen(w, w->particles.x);
     return mps__device_status(d);
 }
 
@@ -130,7 +133,8 @@ static mps_status find_liquid(mps__voids *v, mps__world *w, const mps_stage *s, 
 
 /* ---- the band ---- */
 
-/* Slabs above the highest liquid can hold nothing but void, which is one as long as it hangs together. */
+/* Slabs above the highest liquid contain only void, which is one component as long as it is
+ * connected. */
 static mps_status set_band(mps__voids *v, double highest)
 {
     const double walls = ceil(WET / v->config.side),
@@ -144,7 +148,7 @@ static mps_status set_band(mps__voids *v, double highest)
     MPS__TRY(mps__grow(c, (void **)&v->taken, &r->taken, 0, cells, sizeof *v->taken));
     MPS__TRY(mps__grow(c, (void **)&v->sure, &r->sure, 0, cells, sizeof *v->sure));
     MPS__TRY(mps__grow(c, (void **)&v->wide, &r->wide, 0, cells, sizeof *v->wide));
-    /* ranks combine them in lumps */
+    /* padded to whole messages of the reduction */
     return mps__grow(c, (void **)&v->what, &r->what, 0, cells + MPS__VOID_LUMP, sizeof *v->what);
 }
 

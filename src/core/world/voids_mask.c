@@ -1,29 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The raster of a tank: which cells are solid, which links between them thin plates cut, and how the void hangs together above each slab. It
- * follows from the solid particles alone, so that any tank has one: boxes, surfaces, walls that the user placed. */
+/* The raster of a tank: solid cells, links cut by thin plates, and whether the void above each slab
+ * is connected. It depends on the solid particles alone, so that it works for any tank: boxes,
+ * surfaces, walls placed by the user. */
 #include "world.h"
 #include <string.h>
 
-/* Farthest wall that says on which side of it a cell is [dp]. */
+/* Largest distance of a wall that decides on which side a cell is [dp]. */
 static const double RANGE = 1.5;
 
-/* A dummy says that a cell is so far inside of the solid [dp]: walls between two solids may have a normal too. */
+/* Depth of a cell inside the solid according to a dummy [dp]: walls between two solids may have a
+ * normal, too. */
 static const double DEPTH = 1;
 
-/* Walls in a solid have no area but for rounding [dp^(dim-1)]. */
+/* Area of walls inside a solid, zero up to rounding [dp^(dim-1)]. */
 static const double LEAST_AREA = 1e-3;
 
-/* Most cells: their numbers are of 32 bits. */
+/* Largest number of cells: indices have 32 bits. */
 static const double MOST = INT32_MAX;
 
-/* What the walls about a cell say. Integers, as a sum of them has no order. */
+/* Votes of the walls around a cell; integers, as their sum does not depend on the order. */
 typedef struct votes {
     int64_t height;  /* weighted height over the planes of the walls [2^-30 dp]; < 0: solid */
-    int64_t walls;   /* that have a normal */
-    int64_t dummies; /* and walls that have none */
+    int64_t walls;   /* with a normal */
+    int64_t dummies; /* and walls without one */
 } votes;
 
-/* ---- its size ---- */
+/* ---- size ---- */
 
 /* Box of the walls of all ranks: upper corner, negative of the lower one. */
 static void find_box(mps__world *w, double corner[6])
@@ -38,7 +40,7 @@ static void find_box(mps__world *w, double corner[6])
     mps__ranks_max(&w->ranks, 6, corner);
 }
 
-/* Cells begin at the walls. Above an open tank there is room for liquid at its rim. */
+/* Cells begin at the walls. Above an open tank there is space for liquid at its edge. */
 static mps_status set_size(mps__voids *v, mps__world *w)
 {
     double corner[6], total = 1;
@@ -82,7 +84,7 @@ static void centre_of(const mps__voids *v, const int32_t at[3], double X[3])
     for (int d = 0; d < 3; d++) X[d] = v->origin[d] + (at[d] + 0.5) * v->side;
 }
 
-/* Cells lo..hi that a box of places touches, clipped. */
+/* Cells from..to that a box overlaps, clipped to the raster. */
 static void cells_within(const mps__voids *v, const double *lo, const double *hi, int32_t from[3],
                          int32_t to[3])
 {
@@ -98,7 +100,7 @@ static void cells_within(const mps__voids *v, const double *lo, const double *hi
 
 /* ---- solid cells ---- */
 
-/* The two faces of a thin plate may stand at one place, and its shadows stand in the liquid. */
+/* The two faces of a thin plate may coincide, and its shadows are inside the liquid. */
 static bool is_of_plate(const mps__world *w, int64_t i)
 {
     const mps__particles *s = &w->particles;
@@ -136,7 +138,7 @@ static void vote(const mps__voids *v, const mps__world *w, int64_t i, votes *all
             }
 }
 
-/* Cells that no solid is near are void if they can be reached from void cells. */
+/* Cells without a solid nearby are void if they are connected to void cells. */
 static mps_status flood(mps__voids *v, const votes *all)
 {
     int64_t head = 0, tail = 0;
@@ -183,7 +185,8 @@ static mps_status find_solid(mps__voids *v, mps__world *w)
 
 /* ---- plates ---- */
 
-/* Cells that a plate may hide from particles, and links that it crosses. A plate through centres of cells lies a little below them. */
+/* Mark cells that a plate may hide from particles, and cut links that it crosses. A plate through
+ * centres of cells counts as slightly below them. */
 static void cut_links(mps__voids *v, const mps__screen *p)
 {
     double lo[3], hi[3], a[3], b[3];
@@ -217,7 +220,7 @@ static void cut_links(mps__voids *v, const mps__screen *p)
 
 /* ---- compartments ---- */
 
-/* All cells that can be reached from a cell get the number of its compartment. */
+/* Flood fill: number all cells of the compartment of a cell. */
 static mps_status spread(mps__voids *v, int64_t cell, uint8_t number)
 {
     int64_t head = 0, tail = 0;
@@ -239,7 +242,7 @@ static mps_status spread(mps__voids *v, int64_t cell, uint8_t number)
     return MPS_OK;
 }
 
-/* Blocks are hollow: only what liquid is in is a part of the tank. */
+/* Blocks are hollow: only compartments with liquid are a part of the tank. */
 static mps_status find_spaces(mps__voids *v)
 {
     MPS__TRY(
@@ -362,7 +365,7 @@ mps_status mps__voids_wet(mps__voids *v, mps__world *w)
     wet[0] = 1;
     memset(wet + v->spaces + 1, 1, (size_t)(MPS__COMPARTMENTS - 1 - v->spaces));
     if (memcmp(wet, v->wet, sizeof wet) == 0) return MPS_OK;
-    v->made = false; /* until all of it is done */
+    v->made = false; /* until the update is complete */
     for (int64_t c = 0; c < v->total; c++) {
         if (v->mask[c] & MPS__MASK_DRY) v->mask[c] &= (uint8_t) ~(MPS__MASK_DRY | MPS__MASK_SOLID);
         if (!wet[v->space[c]]) v->mask[c] |= MPS__MASK_DRY | MPS__MASK_SOLID;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a step stands on: domain, lost particles, sorted particles, neighbour lists, dummies and their walls. */
+/* Prerequisites of a step: domain, lost particles, sorted particles, neighbour lists, dummies and
+ * their walls. */
 #include "plates.h"
 #include "world_ranks.h"
 #include <string.h>
@@ -127,7 +128,7 @@ typedef struct speeds {
     mps__carry carry;
 } speeds;
 
-/* The square of the largest speed relative to the tank; a NaN does not count. */
+/* Square of the largest speed relative to the tank; NaN is ignored. */
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
     const double square = mps__relative2(dim, &f->carry, v->x + i * dim, f->u + i * dim);
@@ -159,7 +160,7 @@ void mps__world_note_phases(mps__world *w)
     for (int64_t i = 0; i < w->particles.n; i++)
         if (w->particles.kind[i] == MPS_FLUID) any[w->particles.phase[i]] = true;
     mps__world_any(w, MPS__PHASES, any);
-    /* phase 0 always exists, also if the user does not define it */
+    /* phase 0 always exists, even if the user does not define it */
     for (int p = 1; p < MPS__PHASES; p++)
         if (w->setup.phase_defined[p] && !any[p])
             mps__log(w->context, MPS_LOG_WARNING,
@@ -205,8 +206,8 @@ mps_status mps__world_reserve(mps__world *w)
                            mps__room(w->particles.n, k->capacity), sizeof *k->gone);
 }
 
-/* What is done once when particles came or went: dummies find their walls, walls their areas, and solids the number density that they
- * keep as long as no fluid is about. All candidates are there. */
+/* After solids were added or removed: link dummies to walls, estimate wall areas, and set the
+ * number density that solids keep as long as no fluid is in reach. Needs all candidates. */
 static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
@@ -224,7 +225,7 @@ static mps_status link_solids(mps__world *w)
     return MPS_OK;
 }
 
-/* Which particles the next search gives rows. */
+/* Select the particles that get rows in the next search. */
 static void choose_rows(mps__world *w, bool all)
 {
     w->lists.neighbours.kind = all ? NULL : w->particles.kind;
@@ -232,7 +233,8 @@ static void choose_rows(mps__world *w, bool all)
     w->lists.neighbours.ghost_rows = mps__models_neighbour_rows(&w->models);
 }
 
-/* Lists of the particles in the order they have, which is that of the cells if they are `sorted`; places are on the host. */
+/* Lists of the particles in their present order, which is that of the cells if `sorted`; positions
+ * are on the host. */
 static mps_status search_lists(mps__world *w, bool sorted, bool all)
 {
     mps__particles *s = &w->particles;
@@ -240,12 +242,13 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
         MPS__TRY(mps__neighbours_order(&w->lists.neighbours, s->n, s->x, s->id, w->setup.re_far));
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     choose_rows(w, all);
-    mps__twins_rows_drop(&w->host.twins); /* of the last lists; they may be newer */
+    /* rows of the last lists, which may be newer on the device */
+    mps__twins_rows_drop(&w->host.twins);
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
                                   w->setup.re_far);
 }
 
-/* The same without idle solids, on the host or at the device of a step; and what plates hide. */
+/* Search without idle solids, on the host or on the device of the step, and apply occlusion. */
 static mps_status search_active(mps__world *w, bool sorted)
 {
     bool there = false;
@@ -274,8 +277,9 @@ static mps_status search(mps__world *w, bool sorted)
     return status;
 }
 
-/* Whether the candidates of the last search still hold, but models or the solver want others: rows of dummies or none, more ghosts; or a device
- * has failed that had them. */
+/* Whether the candidates of the last search are valid, but lists have to be rebuilt: models or the
+ * solver require or no longer require rows of dummies, or more ghosts; or the device that had them
+ * has failed. */
 static bool wants_other_lists(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
@@ -297,15 +301,15 @@ static mps_status note_models(mps__world *w)
     return MPS_OK;
 }
 
-/* Lists at the places that the store has for now. */
+/* Lists at the positions that are temporarily in the store. */
 static mps_status search_listed(mps__world *w)
 {
     MPS__TRY(search_lists(w, true, false));
     return mps__plates_find(w);
 }
 
-/* The candidates of a search that was done before a checkpoint or for other models, unless particles came or went since: the store has
- * its order already. */
+/* Repeat a search that was done before a checkpoint or for other models, unless particles were
+ * added or removed since: the store is already in order. */
 static mps_status list_again(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -313,7 +317,7 @@ static mps_status list_again(mps__world *w)
     if (!w->lists.listed_at) MPS__TRY(note_models(w));
     if (mps__ranks_many(&w->ranks)) return mps__world_list_again(w, search_listed);
     if (!w->lists.listed_at) return MPS_OK;
-    MPS__TRY(mps__world_fetch(w)); /* before places are others */
+    MPS__TRY(mps__world_fetch(w)); /* before positions are exchanged */
     if (w->lists.linked == s->solids && w->lists.listed == s->generation) {
         s->x = w->lists.listed_at;
         mps_status status = search_lists(w, false, false);
@@ -327,7 +331,7 @@ static mps_status list_again(mps__world *w)
     return MPS_OK;
 }
 
-/* Sort the store along the cells and search anew, where needed. */
+/* Sort the particles by cell and search again, if needed. */
 static mps_status renew(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -361,7 +365,7 @@ mps_status mps__world_neighbours_populated(mps__world *w)
     MPS__TRY(mps__world_adopt(w));
     bool things[THINGS] = {[PARTICLES] = w->particles.n > 0, [LOOKS] = !w->ahead.holds}, any = true;
     mps__world_any(w, THINGS, things);
-    w->ahead.holds = !things[LOOKS]; /* where a rank has to look, all do */
+    w->ahead.holds = !things[LOOKS]; /* if one rank has to compute them, all do */
     MPS__CHECK(w->context, things[PARTICLES], "there are no particles");
     if (!mps__world_there(w)) MPS__TRY(mps__world_fetch(w));
     MPS__TRY(mps__world_reserve(w));
@@ -372,7 +376,7 @@ mps_status mps__world_neighbours_populated(mps__world *w)
         status = mps__fail(w->context, MPS_E_STATE, "t = %.6g s: all particles left the domain",
                            w->state.t);
     if (status == MPS_OK) status = renew(w);
-    if (status == MPS_OK) status = mps__world_reserve(w); /* there may be more than before */
+    if (status == MPS_OK) status = mps__world_reserve(w); /* the number may have grown */
     const int64_t gone = w->lists.gone;
     if (status == MPS_OK) status = mps__world_leave_tank(w);
     if (status == MPS_OK && w->lists.gone > gone) status = renew(w);
@@ -382,7 +386,7 @@ mps_status mps__world_neighbours_populated(mps__world *w)
     return status;
 }
 
-/* Ranks order particles with each search, so that arrays that the caller holds would change. */
+/* Each search on many ranks reorders particles, so that leased arrays would change. */
 static mps_status neighbours_of_ranks(mps__world *w)
 {
     const int32_t open = mps__particles_leases(&w->particles);
@@ -406,7 +410,7 @@ mps_status mps__world_neighbours_kept(mps__world *w)
     if (fresh) MPS__TRY(mps__world_fresh(w, &fresh));
     if (fresh) return mps__world_rows(w);
     const mps_status status = search(w, false);
-    w->lists.neighbours.valid = false; /* the next step sorts, as it would have done */
+    w->lists.neighbours.valid = false; /* the next step sorts, as it would have without this call */
     return status;
 }
 

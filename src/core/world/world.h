@@ -17,7 +17,7 @@
 #include <mps/probe.h>
 #include <mps/step.h>
 
-/* The state of the fluid as a whole. */
+/* Totals of the fluid. */
 typedef struct mps__bulk {
     double kinetic, potential; /* potential: -m g.x [J] */
     double momentum[3];        /* [kg m/s] */
@@ -27,43 +27,44 @@ typedef struct mps__bulk {
 typedef struct mps__budget {
     double wall_work_momentum, wall_work_probes, viscous, plugins, collision, shift, added;
     double friction, gas;
-    double layers;         /* kinetic energy of fluid beside that of its particles */
+    double layers;         /* kinetic energy of the fluid besides that of its particles */
     double start;          /* kinetic + potential before the first step */
-    mps_momentum momentum; /* but for its `total` and `numerical` */
-    mps__bulk last;        /* up to here all is booked: what the last step left */
-    /* mean volume deviation of regions INNER and SECOND in the last step and the first */
+    mps_momentum momentum; /* without its `total` and `numerical` */
+    /* state at the end of the last step: all changes up to it are accounted for */
+    mps__bulk last;
+    /* mean volume deviation of regions INNER and SECOND in the last step and in the first */
     double deviation, deviation_start;
     int64_t started; /* 1: the first step has been made */
 } mps__budget;
 
-/* Force of a solid on the fluid that verbs reported, besides pressures, and its moment about the centre of motion, in the frame of the
- * tank. */
+/* Force of a solid on the fluid that verbs reported, without pressures, and its moment about the
+ * centre of motion, in the frame of the tank. */
 typedef struct mps__reaction {
     double force[3], moment[3];
 } mps__reaction;
 
-/* Arrays of a step that are no channels. */
+/* Arrays of a step that are not channels. */
 typedef struct mps__work {
     int64_t capacity, turned_capacity, placed_capacity;
     bool bodies; /* a model moves solids in the tank */
     bool *gone;  /* [n] particles to be removed */
     double *turned;
-    double *
-        placed; /* [2*n*dim] with bodies: places and areas of solids at the end of the step, tank's frame */
-    const double
-        *area; /* [n*dim] wetted area vectors in the lab: in turned, or those of the particles */
+    /* [2*n*dim] if bodies: positions and areas of solids at the end of the step, tank's frame */
+    double *placed;
+    /* [n*dim] wetted area vectors in the lab: `turned`, or those of the particles */
+    const double *area;
 } mps__work;
 
-/* When the velocity of the tank jumped last. */
+/* Last jump of the tank's velocity. */
 typedef struct mps__jump {
     double accel;  /* largest |a| of the solids in the last step [m/s2] */
     int64_t since; /* steps */
 } mps__jump;
 
-/* What the user chose. The text of a checkpoint says it. */
+/* Settings by the user, stored in the text of a checkpoint. */
 typedef struct mps__setup {
     int32_t dim, lost_policy;
-    double dp_given; /* by the user; dp is that of the first tank's cells */
+    double dp_given; /* by the user; dp is adjusted to the cells of the first tank */
     double dp, g[3], velocity_scale, re_near, re_far, speed_limit;
     double domain_min[3], domain_max[3]; /* tank's frame */
     bool domain_given, scale_given;
@@ -72,30 +73,32 @@ typedef struct mps__setup {
     double phase_density[MPS__PHASES], phase_viscosity[MPS__PHASES];
     double tension[MPS__PHASES * MPS__PHASES]; /* < 0: not set */
     mps_time_control control;
-    /* of dummies behind the walls, the fewest of all tanks and solids; 0: there is none */
+    /* of dummies behind walls, the minimum over all tanks and solids; 0: not set */
     int32_t layers;
 } mps__setup;
 
-/* What the next step depends on, beside the fields of the particles, the motion and the probes. MPS__STATE lists all members: they
- * are stored in checkpoints. */
+/* State that determines the next step, besides the fields of the particles, the motion and the
+ * probes. MPS__STATE lists all members: they are stored in checkpoints. */
 typedef struct mps__state {
     double t;     /* [s] */
     int64_t step; /* steps taken */
     int64_t lost; /* particles removed */
     double crossing_time;
-    /* of the last step that the limits chose, not the caller; 0: none yet [s] */
+    /* of the last step chosen by the limits, not by the caller; 0: none yet [s] */
     double dt_previous;
     double dt_before; /* length of the last step [s] */
-    mps__pose before; /* of the tank at its beginning */
+    mps__pose before; /* of the tank at the beginning of the last step */
     mps__jump jump;   /* of the tank's velocity */
-    /* time that a gain below 1 spreads pressures over, 0 before the first step [s] */
+    /* time over which a gain below 1 spreads pressures, 0 before the first step [s] */
     double spread;
     mps__budget budget;
     mps__reaction reaction[1 + MPS__PARTS_MAX]; /* of the last step: the tank as a whole, parts */
-    int32_t start_pending; /* 1: the liquid gets its first velocity in the next step */
-    int32_t level_told;    /* 1: the log was told that nothing fixes the level of the pressures */
-    int32_t moves_told;    /* 1: that a fixed step is long for its speeds */
-    int32_t window_told;   /* 1: that a probe averages over less than the resolution can tell */
+    int32_t start_pending; /* 1: the next step sets the initial velocity of the liquid */
+    int32_t level_told;    /* 1: the log has the message that the pressures have no datum */
+    /* 1: the log has the warning that a fixed step is too long for the speeds */
+    int32_t moves_told;
+    /* 1: the log has the warning that a probe's averaging time is below the resolution */
+    int32_t window_told;
 } mps__state;
 
 /* clang-format off */
@@ -110,27 +113,28 @@ typedef struct mps__state {
 _Static_assert(sizeof(mps__state) == 0 MPS__STATE(MPS__STATE_SIZE),
                "MPS__STATE lists all members of mps__state");
 
-/* Lists of neighbours; made again when particles have moved. */
+/* Neighbour lists, rebuilt when particles have moved. */
 typedef struct mps__lists {
     mps_neighbours neighbours;
-    /* the same with the rows of solids without fluid about them, on demand; empty during a step */
+    /* includes rows of solids without fluid in reach; built on demand, empty during a step */
     mps_neighbours complete;
     mps__screens screens; /* thin plates, in the tank's frame */
-    /* NULL, or positions [n*dim] of the search whose candidates still hold, but are to be found
-     * again */
+    /* NULL, or positions [n*dim] of a search whose candidates are valid, but have to be
+     * recomputed */
     double *listed_at;
-    int64_t aside;  /* lost particles that lie behind the others, until the next are looked for */
-    int64_t gone;   /* the same of all ranks */
-    int64_t lost;   /* those of them that count as lost */
-    int64_t linked; /* mps__particles.solids of those whose dummies know their walls */
-    int64_t listed; /* mps__particles.generation of those that the lists have */
-    int64_t first_new; /* id from which on particles came in this step */
+    int64_t aside;     /* lost particles kept in memory behind the others, until the next check */
+    int64_t gone;      /* sum of `aside` over all ranks */
+    int64_t lost;      /* those of them that count as lost */
+    int64_t linked;    /* value of mps__particles.solids when dummies were linked to walls */
+    int64_t listed;    /* value of mps__particles.generation of the lists */
+    int64_t first_new; /* particles added in this step have ids from this one on */
     int64_t links;     /* how often dummies were linked to walls */
-    int64_t orders;    /* how often particles were put in order */
+    int64_t orders;    /* how often particles were reordered */
 } mps__lists;
 
-/* What a step on a device tells the next one, in its last copy: whether fluid is outside of the domain, whether any is behind a wall, the square of
- * the longest way since the search, the square of the largest speed. It holds for the same particles and the same search. */
+/* Next-step flags, computed in a step's last reduction on a device: whether fluid is outside of the
+ * domain, whether any is behind a wall, the square of the largest displacement since the search,
+ * the square of the largest speed. Valid for the same particles and the same search. */
 enum {
     MPS__AHEAD_OUTSIDE,
     MPS__AHEAD_SPILLED, /* -INFINITY: not known */
@@ -140,44 +144,46 @@ enum {
 };
 typedef struct mps__ahead {
     double most[MPS__AHEADS];
-    int64_t changes,
-        searches; /* of the particles, of the lists, at the end of the step; -1: nothing is told */
-    bool holds;   /* in the step in progress */
+    /* values of mps__particles.changes and mps_neighbours.searches at the end of the step; changes
+     * -1: no flags */
+    int64_t changes, searches;
+    bool holds; /* the flags are valid in the step in progress */
 } mps__ahead;
 
 /* The store of this rank while rank 0 has the particles of all ranks; gather.h. */
 typedef struct mps__collected {
-    bool begun; /* by the user */
+    bool begun; /* the user called mps_particles_gather() */
     bool swapped;
     void *array[MPS__FIELDS_MAX]; /* of the fields */
     int64_t n, capacity;
     uint8_t *ghost;
-    double *listed; /* places of the last search */
+    double *listed; /* positions of the last search */
 } mps__collected;
 
-/* Work of this rank since ranks compared theirs; balance.c. */
+/* Work of this rank since the last comparison of ranks; balance.c. */
 typedef struct mps__balance {
     int32_t steps;
     double work;   /* of the steps since then [s] */
     double waited; /* mps__ranks.seconds when the step began */
-    double cost;   /* of a particle of this rank over that of the mean rank */
+    double cost;   /* of a particle of this rank, relative to the mean rank */
 } mps__balance;
 
 /* Load of the liquid on the tank in the last step, and its added mass; mps_load. */
 typedef struct mps__load {
     int32_t watch; /* MPS_LOAD_..., of the user */
-    int32_t what;  /* of this step: a body needs all */
+    int32_t what;  /* in this step: a body needs all */
     bool known, has_mass;
     int32_t iterations; /* of all columns of the added mass */
-    double dt, at[3];   /* place of the centre of motion at the beginning of the step */
-    double force[6], accel[6], mass[36]; /* about it */
+    double dt, at[3];   /* at: position of the centre of motion at the beginning of the step */
+    double force[6], accel[6], mass[36]; /* about `at` */
 } mps__load;
 
-/* What the added mass is computed with. */
+/* Data of the added mass. */
 typedef struct mps__mass {
-    /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL: never asked for */
+    /* field [n*dofs]: change of the pressure by each degree of freedom in the last step; NULL:
+     * never requested */
     double *guess;
-    double *next;              /* [n*count] by each column of the step in progress */
+    double *next;              /* [n*count] by each column, in the step in progress */
     double *moments, *rhs, *p; /* [n*dim], [rows], [columns] */
     double *a;                 /* [n*count*dim] change of accelerations */
     int64_t next_capacity, moment_capacity, rhs_capacity, p_capacity, a_capacity;
@@ -191,7 +197,7 @@ typedef struct mps__world {
     mps__work work;
     mps__particles particles; /* the state of each particle */
     mps__motion motion;       /* of the tank: chosen by the user, and its present pose */
-    mps__body body;           /* that carries it, if mps__body_carries() */
+    mps__body body;           /* that carries the tank, if mps__body_carries() */
     mps__pool pool;
     int32_t threads; /* of the pool */
     mps__ranks ranks;
@@ -209,65 +215,74 @@ typedef struct mps__world {
     mps_step_info info;   /* of the last step */
     mps__load load;
     mps__mass mass;
-    bool ending; /* dt_max of a step is what is left of a run */
+    bool ending; /* dt_max of a step is the rest of a run */
     mps__ahead ahead;
-    int64_t booked; /* mps__particles.changes when the last step summed state.budget.last */
+    /* value of mps__particles.changes when the last step summed state.budget.last */
+    int64_t booked;
 } mps__world;
 
-/* `passes` are those of a step, in their order. */
+/* `passes`: those of a step, in order. */
 mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, double dp,
                            const mps__pass *const *passes, int32_t pass_count);
 void mps__world_free(mps__world *w);
-/* The field that carries first guesses of the added mass with the particles, if there is none. */
+/* Add the field of first guesses of the added mass, if there is none. */
 mps_status mps__world_add_guess(mps__world *w);
-/* Another spacing, before the first particle: radii keep their multiples of it. */
+/* Set another spacing, before the first particle is added: radii scale with it. */
 void mps__world_spacing(mps__world *w, double dp);
-/* Lists at the present positions: search and sort if needed, then exact rows. Lost particles are handled here. */
+/* Lists at the present positions: search and sort if needed, then exact rows. Includes the removal
+ * of lost particles. */
 mps_status mps__world_neighbours(mps__world *w);
-/* The same after mps__world_populate(). */
+/* mps__world_neighbours() after mps__world_populate(). */
 mps_status mps__world_neighbours_populated(mps__world *w);
-/* All fields of the particles are on the host, or one of them; the candidates of the last search; the places of that search. To be called before anything on the host reads
- * them outside of the calls of a step. MPS_E_PLUGIN: a device has them alone and does not give them. world_fields.c */
+/* Copy to the host, unless up to date: all fields of the particles; one of them; the candidates of
+ * the last search; the positions of that search. To be called before the host reads them outside of
+ * the calls of a step. MPS_E_PLUGIN: only a device has them, and the copy failed. world_fields.c */
 mps_status mps__world_fetch(const mps__world *w);
 mps_status mps__world_fetch_field(const mps__world *w, const void *array);
-/* A public function writes one field: it is on the host, and a device has old values from now on.
+/* Before a public function writes a field: copy it to the host, and invalidate the device's copy.
  * MPS_E_PLUGIN: nothing has changed. world_fields.c */
 mps_status mps__world_write_field(mps__world *w, const void *array);
 mps_status mps__world_fetch_lists(const mps__world *w);
 mps_status mps__world_fetch_searched(const mps__world *w);
-/* Whether loops run on the device of a step that begins; whether it has the lists of the last search, too. world_rows.c */
+/* Whether a step begins on the device; whether the device also has the lists of the last search.
+ * world_rows.c */
 bool mps__world_there(const mps__world *w);
 bool mps__world_rows_there(const mps__world *w);
-/* Whether the candidates of the last search still hold. world_rows.c */
+/* Whether the candidates of the last search are still valid. world_rows.c */
 mps_status mps__world_fresh(mps__world *w, bool *fresh);
-/* What rows see of the particles as they are, without pairs. */
+/* The view of the present particles, without pairs. */
 void mps__world_view(const mps__world *w, mps_view *v);
-/* Move `count` particles with `gone` behind the others, where they are no more, but may come back. They do not count as lost. lost.c */
+/* Move `count` particles marked in `gone` behind the others: they are removed, but can be restored.
+ * They do not count as lost. lost.c */
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
-/* Room for all particles in arrays of a step that are no channels. */
+/* Capacity for all particles in the arrays of a step that are not channels. */
 mps_status mps__world_reserve(mps__world *w);
-/* Ask for what the next step wants to know, with the tank at a pose; known after mps__host_settle(). lost.c */
+/* Request the next-step flags, with the tank at a pose; valid after mps__host_settle(). lost.c */
 void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS]);
-/* Remove fluid outside of the domain, or behind walls, as the policy says. lost.c */
+/* Remove fluid outside of the domain, or behind walls, by the policy. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);
-/* Those that were removed last come back, as long as nothing was added since. */
+/* Restore the particles removed last, as long as none were added since. */
 void mps__world_take_back(mps__world *w);
-/* The same while the caller holds arrays: no particle is removed or moved to another place. */
+/* mps__world_neighbours() while the caller holds arrays: no particle is removed or reordered. */
 mps_status mps__world_neighbours_kept(mps__world *w);
-/* Exact rows at the present positions from lists that are fresh; at the device of a step, if it has them. world_rows.c */
+/* Exact rows at the present positions from valid candidates; on the device of the step, if it has
+ * them. world_rows.c */
 mps_status mps__world_rows(mps__world *w);
-/* The order of the cells: in the list, and where a device made it, in `there`; NULL: the host did. world_rows.c */
+/* The order by cells: in the list, and, if a device made it, in its memory, `there`; NULL: made on
+ * the host. world_rows.c */
 mps_status mps__world_order(mps__world *w, const int32_t **there);
-/* Candidates of particles that are in the order of their cells, found at the device of a step; `found` is false if they are to be found on the
- * host. Plates hide nothing yet. world_rows.c */
+/* Search on the device of the step, for particles in cell order; `found` false: search on the host.
+ * The second function applies occlusion. world_rows.c */
 mps_status mps__world_search_there(mps__world *w, bool *found);
 mps_status mps__world_hide_there(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
-/* The arrays of those lists, and wetted areas that have turned, at the device of a step that begins. */
+/* Mirror the arrays of those lists, and rotated wetted areas, on the device of a step that
+ * begins. */
 mps_status mps__world_lists_twins(mps__world *w);
-/* Address of an array of a field or list where loops run now, for loops that read it; for loops that write all of it. */
+/* Address of an array of a field or list in the memory space of the loops, for loops that read it;
+ * for loops that overwrite all of it. */
 static inline void *mps__seen(const mps__world *w, const void *array)
 {
     return mps__twins_seen((mps__twins *)&w->host.twins, array);
@@ -276,26 +291,30 @@ static inline void *mps__given(mps__world *w, void *array)
 {
     return mps__twins_given(&w->host.twins, array, true);
 }
-/* A stencil that has the rows of all particles, from lists that are fresh. */
+/* A stencil with the rows of all particles, from valid lists. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
-/* Dummies find their walls, and walls without an area get one, from a search that left no particle out. links.c */
+/* Link dummies to walls, and estimate missing wall areas, from a search with all particles.
+ * links.c */
 mps_status mps__world_link_walls(mps__world *w);
-/* A tank or solid has so many layers of dummies. */
+/* Note the number of layers of dummies of a tank or solid. */
 void mps__world_note_layers(mps__world *w, int32_t layers);
-/* Tell the log of phases that were defined and have no fluid. */
+/* Log phases that are defined but have no fluid. */
 void mps__world_note_phases(mps__world *w);
-/* Largest mps_step_info.crossing_time [s]: below 5 U_g steps do not depend on the speed. */
+/* Largest mps_step_info.crossing_time [s]: below 5 U_g it does not depend on the speed. */
 static inline double mps__crossing_limit(const mps__world *w)
 {
     return w->setup.dp / (5 * w->setup.velocity_scale);
 }
 /* Largest speed of all particles relative to the tank [m/s]. */
 double mps__world_speed(mps__world *w);
-/* Box of the solids of all ranks in the tank's frame: upper corner, negative of the lower one; -INFINITY without any. */
+/* Box of the solids of all ranks in the tank's frame: upper corner, negative of the lower one;
+ * -INFINITY without any. */
 void mps__world_box_of_solids(mps__world *w, double corner[6]);
-/* Places farther from the origin are refused [dp]: rounding is below the millionth of a spacing by which lattice points are told apart. */
+/* Largest distance from the origin [dp]: rounding is then below the millionth of a spacing that
+ * separates lattice points. */
 #define MPS__FARTHEST 1e9
-/* Bounding box of the domain in the tank's frame. False without solids and without a given domain. */
+/* Bounding box of the domain in the tank's frame. False without solids and without a given
+ * domain. */
 bool mps__world_domain(mps__world *w, double lo[3], double hi[3]);
 
 #endif

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields and lists that the device of the last step has alone come to the host for what looks at them there. */
+/* Copies of fields and lists from the device of the last step to the host. */
 #include "world.h"
 #include <string.h>
 
-/* The text of a failure, with the time of the state that did not come. */
+/* Error text, with the time of the state that could not be copied. */
 static mps_status tell(const mps__world *w, mps_status status)
 {
     char why[MPS__ERROR_SIZE];
@@ -34,7 +34,7 @@ mps_status mps__world_write_field(mps__world *w, const void *array)
     mps__twins_changed_alone(&w->host.twins, array, before);
     if (array != s->rho) mps__densities_kept(&w->host.densities, s, before);
     if (array == s->x || array == s->u || array == s->rho) return MPS_OK;
-    /* sums of the flow, and what the last step saw ahead, are made of these three alone */
+    /* sums of the flow, and the next-step flags, depend on these three alone */
     if (w->booked == before) w->booked = s->changes;
     if (w->ahead.changes == before) w->ahead.changes = s->changes;
     return MPS_OK;

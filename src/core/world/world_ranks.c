@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles on many ranks. Space is cut in the frame of the tank, so that a tank that moves carries its cuts along. */
+/* Particles on many ranks. Space is partitioned in the frame of the tank, so that the partition
+ * moves with it. */
 #include "world_ranks.h"
 #include <string.h>
 
-/* Ghosts must not be lost to rounding of places in the tank's frame. */
+/* Ghosts must not be lost to rounding of positions in the tank's frame. */
 static const double margin = 1e-9;
 
-/* Owners of positions of the pressure equation, which are less the displacement of the tank. */
+/* Owners of positions of the pressure equation, which are relative to the displacement of the
+ * tank. */
 static mps_status find_owners(void *world, int64_t m, const double *x, int32_t *rank)
 {
     mps__world *w = world;
@@ -43,7 +45,8 @@ static void place_of(const void *world, int64_t i, double *X)
         memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
 }
 
-/* The walls of dummies that are ghosts are ghosts too: they are at most as far from them as rows reach. */
+/* Reach of the ghosts. Walls of dummies that are ghosts are ghosts too: their distance is at most
+ * that of the rows. */
 static mps__placing placing(const mps__world *w)
 {
     const double skin = w->lists.neighbours.skin, far = w->setup.re_far + skin,
@@ -91,14 +94,14 @@ void mps__world_find(mps__world *w, mps__found *found)
     mps__ranks_reduce(&w->ranks, 1, sizeof *found, found, found_by_both);
 }
 
-/* ---- walls of dummies: places change with each order, ids do not -------------------------------------------------- */
+/* ---- walls of dummies: indices change with each order, ids do not ---- */
 
 static uint64_t slot_of(int64_t id, uint64_t size)
 {
     return ((uint64_t)id * UINT64_C(0x9e3779b97f4a7c15) >> 20) & (size - 1);
 }
 
-/* Places of dummies' walls from their ids: a hash table of the walls. */
+/* Indices of dummies' walls from their ids, by a hash table of the walls. */
 mps_status mps__world_find_walls(mps__world *w)
 {
     mps__particles *s = &w->particles;
@@ -137,7 +140,7 @@ mps_status mps__world_link_ghosts(mps__world *w)
     return mps__world_find_walls(w);
 }
 
-/* ---- places ------------------------------------------------------------------------------------------------------ */
+/* ---- halo exchange and migration ---- */
 
 mps_status mps__world_share_areas(mps__world *w)
 {
@@ -186,7 +189,7 @@ mps_status mps__world_divide(mps__world *w)
     const mps__placing p = placing(w);
     const int32_t *there;
     if (mps__ranks_many(&w->ranks)) {
-        MPS__TRY(mps__world_fetch(w)); /* particles travel from host to host */
+        MPS__TRY(mps__world_fetch(w)); /* particles migrate between hosts */
         mps__twins_forget(&w->host.twins);
     }
     MPS__TRY(mps__ghosts_renew(&w->ghosts, &p, w->lists.aside));
@@ -206,7 +209,7 @@ mps_status mps__world_divide(mps__world *w)
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
 }
 
-/* ---- after a checkpoint ------------------------------------------------------------------------------------------ */
+/* ---- after a checkpoint ---- */
 
 static const char listed_field[] = "listed_at";
 
@@ -257,10 +260,10 @@ mps_status mps__world_list_again(mps__world *w, mps_status (*search)(mps__world 
     mps__world_keep_listed(w);
     const mps__field *f = mps__particles_field(s, listed_field);
     if (!f) return MPS_OK;
-    mps_status status = mps__world_fetch(w); /* before places are others */
+    mps_status status = mps__world_fetch(w); /* before positions are exchanged */
     if (status == MPS_OK && w->lists.linked == s->solids && w->lists.listed == s->generation) {
         const bool recut = w->ghosts.recut;
-        w->ghosts.recut = false; /* cuts are those of places now */
+        w->ghosts.recut = false; /* the partition is for the present positions */
         exchange_places(s, *f->data);
         status = mps__world_divide(w);
         if (status == MPS_OK) status = search(w);

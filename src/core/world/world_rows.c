@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Order of particles and candidates of neighbours from a device; rows between two searches, on the host or on a device that has the lists. */
+/* Order and candidates from a device; exact rows between two searches, on the host or on a device
+ * that has the lists. */
 #include "plates.h"
 #include "scan.h"
 
-/* Whether the device of a step finds rows. */
+/* Whether the device of a step computes rows. */
 static bool device_finds(const mps__world *w)
 {
     return w->host.twins.step && w->setup.kernel.id != MPS_KERNEL_CUSTOM;
 }
 
-/* Whether it searches, too: on many ranks particles travel from host to host first. */
+/* Whether it searches, too: on many ranks particles migrate between hosts first. */
 static bool device_searches(const mps__world *w)
 {
     return device_finds(w) && !mps__ranks_many(&w->ranks);
@@ -20,14 +21,16 @@ bool mps__world_there(const mps__world *w)
     return device_finds(w) && mps__twins_there(&w->host.twins);
 }
 
-/* The host's lists are an older parting of the same candidates as long as the device has newer ones: still right to begin from. */
+/* While the device has newer rows, the host's lists are an older partition of the same candidates,
+ * and still a valid start. */
 bool mps__world_rows_there(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     return device_finds(w) && w->host.twins.listed == l->searches && l->longest == 0;
 }
 
-/* Room for lists of the device, which has values for them or gets them from the host. Columns have theirs when they are counted. */
+/* Device memory of the lists; `values`: copied from the host, else to be computed. Columns are
+ * allocated once they are counted. */
 static mps_status make_lists(mps__world *w, bool values)
 {
     const mps_neighbours *l = &w->lists.neighbours;
@@ -53,7 +56,7 @@ static mps_status make_columns(mps__world *w, bool values)
 
 /* ---- order ---- */
 
-/* While loops run on the device. NULL: it could not. */
+/* With loops on the device. NULL: failed. */
 static mps_status order_there(mps__world *w, const int32_t **there)
 {
     const mps__particles *s = &w->particles;
@@ -81,7 +84,7 @@ mps_status mps__world_order(mps__world *w, const int32_t **there)
     if (device_searches(w) && w->lists.linked == s->solids) {
         MPS__TRY(mps__twins_enter(&w->host.twins));
         const mps_status status = order_there(w, there);
-        mps__twins_leave(&w->host.twins); /* what has failed is seen after the host's order */
+        mps__twins_leave(&w->host.twins); /* a failure is reported after the order on the host */
         MPS__TRY(status);
     }
     if (*there) return MPS_OK;
@@ -91,7 +94,7 @@ mps_status mps__world_order(mps__world *w, const int32_t **there)
 
 /* ---- candidates ---- */
 
-/* While loops run on the device. */
+/* With loops on the device. */
 static mps_status search_there(mps__world *w, bool *found)
 {
     mps__twins *t = &w->host.twins;
@@ -145,13 +148,13 @@ mps_status mps__world_search_there(mps__world *w, bool *found)
 
 /* ---- rows ---- */
 
-/* Numbers of 8 bytes. */
+/* Arrays of structs, copied as 8-byte numbers. */
 static mps_status make_structs(mps__world *w, int32_t block, void *host, int64_t count, size_t size)
 {
     return mps__twins_block(&w->host.twins, block, host, count * (int64_t)(size / 8), 8, true);
 }
 
-/* Screens, and particles near them where they are now. */
+/* Occluders, and near-plate particles at their present positions. */
 static mps_status make_screens(mps__world *w)
 {
     const mps__screens *p = &w->lists.screens;
@@ -166,7 +169,7 @@ static mps_status make_slots(mps__world *w)
                             sizeof *p->slot, true);
 }
 
-/* Arrays for rows that change. */
+/* Arrays for an update of the rows. */
 static mps__row_arrays arrays_there(mps__world *w)
 {
     mps__twins *t = &w->host.twins;
@@ -232,12 +235,12 @@ mps_status mps__world_rows(mps__world *w)
     mps__plates_look(w);
     if (there) return rows_there(w);
     MPS__TRY(mps__world_fetch_lists(w));
-    mps__twins_rows_drop(&w->host.twins); /* older than these from now on */
+    mps__twins_rows_drop(&w->host.twins); /* stale from now on */
     mps__neighbours_rows(&w->lists.neighbours, w->particles.x);
     return MPS_OK;
 }
 
-/* Lists as the search left them. */
+/* Copy the lists of the last search to the device. */
 static mps_status show_lists(mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
