@@ -12,7 +12,8 @@ static const char *failure(void *self)
     return c->text.line[0] ? c->text.line : NULL;
 }
 
-/* The number of a GPU, where it is that of a rank: as the ranks of a machine follow each other. What is wrong is told where the GPU opens. */
+/* Number of the GPU, from the rank if requested, in the order of ranks of a machine. Errors are
+ * reported when the GPU is opened. */
 static int number_of(const mps_sim *sim, int32_t number)
 {
     cuda_text text = {""};
@@ -29,7 +30,7 @@ mps_status mps_cuda_use(mps_sim *sim, int32_t number)
     cuda *c = calloc(1, sizeof *c);
     int32_t ranks = 1;
     mps_sim_ranks(sim, NULL, &ranks);
-    if (!c && ranks > 1) mps_sim_device_set(sim, NULL); /* the others wait for this one */
+    if (!c && ranks > 1) mps_sim_device_set(sim, NULL); /* the other ranks wait for this call */
     if (!c) return MPS_E_NOMEM;
     c->number = number_of(sim, number);
     c->ops = (mps_device_ops){.struct_size = sizeof c->ops,
@@ -49,7 +50,7 @@ mps_status mps_cuda_use(mps_sim *sim, int32_t number)
                               .failure = failure,
                               .begin = cuda_begin,
                               .end = cuda_end};
-    bool ended = false; /* where the GPU of another rank does not open */
+    bool ended = false; /* true if the GPU of another rank does not open */
     c->ended = &ended;
     const mps_status status = mps_sim_device_set(sim, &c->ops);
     if (status >= 0)

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a process has of the driver: its functions, and the GPUs that handles use. */
+/* Process-wide state of the driver: its functions and the GPUs in use by handles. */
 #include "driver.h"
 #include "rows.h"
 #include <dlfcn.h>
@@ -50,7 +50,8 @@ static int find_functions(void *library, cuda_driver *d, cuda_text *text)
             return cuda_fail(
                 text, "the driver of NVIDIA is too old: it has no %s(); CUDA 9 or newer is needed",
                 list[k].name);
-        memcpy(list[k].member, &symbol, sizeof symbol); /* ISO C has no cast to a function */
+        /* ISO C has no cast to a function pointer */
+        memcpy(list[k].member, &symbol, sizeof symbol);
     }
     return 0;
 }
@@ -71,7 +72,7 @@ static int open_driver(cuda_text *text)
         dlclose(library);
         return 1;
     }
-    functions = d; /* it stays open: threads of the driver may run */
+    functions = d; /* never closed: threads of the driver may run */
     opened = true;
     return 0;
 }
@@ -105,7 +106,7 @@ int cuda_find(const cuda_driver *d, int number, int *device, cuda_text *text)
     return 0;
 }
 
-/* The driver translates the kernels for this GPU. */
+/* Load the kernels; the driver translates them for this GPU. */
 static int load(cuda_gpu *g, cuda_text *text)
 {
     char log[LOG] = "";
@@ -132,7 +133,7 @@ static int open_gpu(cuda_gpu *g, int number, cuda_text *text)
     return 1;
 }
 
-/* The GPU in use, or a free place for it. */
+/* Entry of the GPU if it is in use, else a free one. */
 static cuda_gpu *place_of(int number)
 {
     cuda_gpu *place = NULL;

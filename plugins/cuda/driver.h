@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The driver of CUDA, opened by name: what of its interface is used here. Types and numbers are those of the interface's documentation. */
+/* The functions of the CUDA driver used here, opened by name. Types and numbers are those of its
+ * documentation. */
 #ifndef MPS_CUDA_DRIVER_H
 #define MPS_CUDA_DRIVER_H
 
@@ -11,7 +12,7 @@ typedef uint64_t cuda_address;
 typedef struct cuda_opaque *cuda_handle; /* of a context, a module, a kernel, a stream */
 
 enum { CUDA_CAPABILITY_MAJOR = 75, CUDA_CAPABILITY_MINOR = 76 }; /* attributes of a GPU */
-enum { CUDA_NON_BLOCKING = 1 };                                  /* a stream */
+enum { CUDA_NON_BLOCKING = 1 };                                  /* attribute of a stream */
 enum { CUDA_JIT_ERRORS = 5, CUDA_JIT_ERRORS_SIZE = 6 };
 
 /* Member, name in the driver, arguments. All return 0 or the number of an error. */
@@ -55,7 +56,7 @@ typedef struct cuda_driver {
     CUDA_FUNCTIONS(CUDA_MEMBER)
 } cuda_driver;
 
-/* A GPU that handles use: its primary context, and the kernels in it. */
+/* A GPU in use by handles: its primary context, and the kernels in it. */
 typedef struct cuda_gpu {
     const cuda_driver *driver;
     int number, device, users;
@@ -67,16 +68,18 @@ typedef struct cuda_text {
     char line[400];
 } cuda_text;
 
-/* Keep the first text; as printf. @return 1 */
+/* Keep the first text, formatted as by printf. @return 1 */
 int cuda_fail(cuda_text *text, const char *format, ...);
-/* The same, of a call of the driver; nothing if error is 0. @return 0, or 1 */
+/* Keep the first text for an error of a call of the driver; nothing if error is 0. @return 0, or
+ * 1 */
 int cuda_check(cuda_text *text, const cuda_driver *driver, int error, const char *what);
 
-/* The driver, opened once a process. NULL: there is none, the text says why. */
+/* The driver, opened once per process. NULL: not available, the text has the reason. */
 const cuda_driver *cuda_driver_open(cuda_text *text);
-/* One of its GPUs. @return 0, or 1 with the text */
+/* Find a GPU. @return 0, or 1 with the text */
 int cuda_find(const cuda_driver *driver, int number, int *device, cuda_text *text);
-/* Context and kernels of a GPU, shared by all handles of the process. NULL: the text says why. */
+/* Context and kernels of a GPU, shared by all handles of the process. NULL: the text has the
+ * reason. */
 cuda_gpu *cuda_gpu_open(int number, cuda_text *text);
 void cuda_gpu_close(cuda_gpu *gpu);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a handle has of a GPU: a stream, memory, kernels that it has asked for. Calls come from one thread at a time. */
+/* GPU state of a handle: a stream, memory, the kernels used so far. Calls come from one thread at a
+ * time. */
 #ifndef MPS_CUDA_HANDLE_H
 #define MPS_CUDA_HANDLE_H
 
@@ -9,7 +10,8 @@
 
 enum { CUDA_KERNELS = 1024, CUDA_NAME = 96 };
 
-/* Memory of the GPU. What is given back serves again: the driver takes long to find memory, and waits for the GPU. */
+/* A buffer on the GPU. Released buffers are reused: allocation by the driver is slow and waits for
+ * the GPU. */
 typedef struct cuda_room {
     cuda_address begin;
     size_t bytes;
@@ -24,18 +26,18 @@ typedef struct cuda_kernel {
 typedef struct cuda {
     mps_device_ops ops;
     int number;
-    bool *ended;   /* NULL, or set when this is no more */
-    cuda_gpu *gpu; /* NULL: not begun */
+    bool *ended;   /* NULL, or set when the handle is destroyed */
+    cuda_gpu *gpu; /* NULL: not initialised */
     const cuda_driver *driver;
     cuda_handle stream;
     cuda_room *room;
     size_t rooms, room_capacity;
     cuda_room terms, results, arguments; /* of sums and maxima; of kernels with large arguments */
-    cuda_kernel kernel[CUDA_KERNELS];    /* by a hash of their names */
-    cuda_text text;                      /* of the last failure */
+    cuda_kernel kernel[CUDA_KERNELS];    /* hash table by name */
+    cuda_text text;                      /* text of the last failure */
 } cuda;
 
-/* The calls of the table that need memory alone. */
+/* ---- functions of the table that need memory only (memory.c) ---- */
 int cuda_begin(void *self);
 void cuda_end(void *self);
 void *cuda_take(void *self, uint64_t bytes);
@@ -45,15 +47,17 @@ int cuda_download(void *self, void *to, const void *from, uint64_t bytes);
 int cuda_clear(void *self, void *to, uint64_t bytes);
 int cuda_copy(void *self, void *to, const void *from, uint64_t bytes);
 int cuda_wait(void *self);
-/* Those of loops. */
+/* ---- functions of the table that run loops (launch.c) ---- */
 int cuda_rows(void *self, const mps_launch *launch);
 int cuda_values(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
 int cuda_gather(void *self, const mps_launch *launch, void *to);
 
-/* The context of the GPU becomes that of the thread, until cuda_leave(). @return 0, or 1 with the text */
+/* Make the GPU's context current in this thread, until cuda_leave(). @return 0, or 1 with the
+ * text */
 int cuda_enter(cuda *c);
 void cuda_leave(cuda *c);
-/* Make a room of the handle's own at least so large; values are lost. @return 0, or 1 with the text. Inside of the context. */
+/* Grow a buffer of the handle to at least `bytes`; its values are lost. @return 0, or 1 with the
+ * text. Call it inside the context. */
 int cuda_fit(cuda *c, cuda_room *room, size_t bytes);
 
 #endif

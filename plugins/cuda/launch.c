@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops on a GPU: a kernel a loop; terms of sums and maxima are joined on the GPU in two more launches. */
+/* Loops on a GPU: one kernel per loop; terms of sums and maxima are reduced on the GPU in two more
+ * launches. */
 #include "handle.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum {
-    PARTS = 256, /* groups that join the terms of a value, at most */
-    VALUES = 64  /* of a launch, at most */
+    PARTS = 256, /* most groups that reduce the terms of a value */
+    VALUES = 64  /* most values of a launch */
 };
 
 /* ---- kernels ---- */
@@ -23,7 +24,8 @@ static cuda_kernel *slot_of(cuda *c, const char *name)
     return NULL;
 }
 
-/* A kernel by its name without the dimension: there is one of this dimension, or one of both. NULL with the text: there is none. */
+/* A kernel by its name without the dimension: that of this dimension, or that of both. NULL with
+ * the text: not found. */
 static cuda_handle kernel_named(cuda *c, const char *name, int dim)
 {
     char full[CUDA_NAME + 3];
@@ -44,7 +46,7 @@ static cuda_handle kernel_named(cuda *c, const char *name, int dim)
     return kernel;
 }
 
-/* Run a kernel of one struct, which `bytes` fill without a gap. */
+/* Run a kernel of one struct of `bytes` bytes without gaps. */
 static int start(cuda *c, cuda_handle kernel, const char *name, void *given, size_t bytes,
                  int64_t groups)
 {
@@ -103,7 +105,7 @@ static int join(cuda *c, const char *name, mps__launch_join given, int64_t value
     return start(c, kernel, name, &given, sizeof given, values * given.parts);
 }
 
-/* In `results`: what groups make of the terms, then a result a value. */
+/* Layout of `results`: results of the groups, then one result per value. */
 typedef struct results {
     mps_exact *sum_parts, *sum;
     double *maximum_parts, *maximum;
@@ -113,8 +115,7 @@ typedef struct results {
 static results lay_out(const cuda *c, int64_t parts, int32_t sums, int32_t maxima)
 {
     results r;
-    r.sum = (mps_exact *)(uintptr_t)
-                c->results.begin; /* results in front: one download has them all */
+    r.sum = (mps_exact *)(uintptr_t)c->results.begin; /* results first: one download copies all */
     r.maximum = (double *)(r.sum + sums);
     r.sum_parts = (mps_exact *)(r.maximum + maxima + maxima % 2);
     r.maximum_parts = (double *)(r.sum_parts + sums * parts);
@@ -123,7 +124,7 @@ static results lay_out(const cuda *c, int64_t parts, int32_t sums, int32_t maxim
     return r;
 }
 
-/* Groups that are worth their launch. */
+/* Number of groups that justify their launch. */
 static int64_t parts_of(int64_t n)
 {
     const int64_t wanted = (n + 8 * MPS__LAUNCH_GROUP - 1) / (8 * MPS__LAUNCH_GROUP);
@@ -161,10 +162,10 @@ static int join_all(cuda *c, const mps_launch *l, const double *terms, const res
                              join(c, "mpsk_sums__raise", raise_all, l->maxima));
 }
 
-/* Results of the GPU join those of before. */
+/* Download the results and join them with the previous ones. */
 static int fetch(cuda *c, const mps_launch *l, const results *r, mps_exact *sum, double *maximum)
 {
-    mps_exact got[VALUES]; /* maxima behind the sums: both are smaller than these */
+    mps_exact got[VALUES]; /* maxima after the sums; a maximum is smaller than a sum */
     const size_t sums = (size_t)l->sums * sizeof *sum;
     int error = c->driver->down(got, (uintptr_t)r->sum, sums + (size_t)l->maxima * sizeof *maximum,
                                 c->stream);
@@ -179,7 +180,7 @@ static int fetch(cuda *c, const mps_launch *l, const results *r, mps_exact *sum,
     return 0;
 }
 
-/* Results come to `to`, or to memory of the handle's own, where `r` says. */
+/* Reduce to `to`, or to memory of the handle described by `r`. */
 static int values(cuda *c, const mps_launch *l, void *to, results *r)
 {
     const int32_t count = l->sums + l->maxima;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory of a GPU, copies, and how a handle begins and ends. All is queued in the handle's stream; only a download and cuda_wait() wait. */
+/* Memory of a GPU, copies, begin and end of a handle. Everything is queued in the handle's stream;
+ * only a download and cuda_wait() wait. */
 #include "handle.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* Rooms are so much larger than asked for, in steps of ALIGN: particles come and go. */
+/* Buffers are larger than requested by 1/SPARE, in steps of ALIGN: the number of particles
+ * varies. */
 enum { ALIGN = 256, SPARE = 16 };
 
 int cuda_enter(cuda *c)
@@ -59,7 +61,7 @@ void cuda_end(void *self)
 
 /* ---- memory ---- */
 
-/* Rooms that are not used go back to the driver. @return whether there were any */
+/* Return unused buffers to the driver. @return whether there were any */
 static bool drop_unused(cuda *c)
 {
     size_t kept = 0;
@@ -96,7 +98,7 @@ int cuda_fit(cuda *c, cuda_room *room, size_t bytes)
     return 0;
 }
 
-/* The smallest room that is free, large enough and not more than twice as large. */
+/* The smallest free buffer that is large enough and at most twice as large. */
 static cuda_room *free_room(cuda *c, size_t bytes)
 {
     cuda_room *best = NULL;

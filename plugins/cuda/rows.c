@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The assembler puts the file into the library: as an array of C it would take a compiler minutes. */
+/* The assembler includes the file into the library: as an array of C it would take a compiler
+ * minutes. */
 #include "rows.h"
 
 __asm__(".section .rodata\n"
@@ -10,4 +11,4 @@ __asm__(".section .rodata\n"
         ".byte 0\n"
         ".previous\n");
 
-typedef int mps__cuda_rows_is_above; /* a file needs a declaration */
+typedef int mps__cuda_rows_is_above; /* a translation unit needs a declaration */

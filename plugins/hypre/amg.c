@@ -4,8 +4,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Share of the diagonal that is added to it in components of no pressure level: their coarsest grid would be singular. Far below the least
- * eigenvalue of a tank, (dp/length)^2, far above rounding. */
+/* Fraction of the diagonal that is added to it in components without pressure datum, whose coarsest
+ * grid would be singular. It is far below the smallest eigenvalue of a tank, (dp/length)^2, and far
+ * above rounding. */
 static const double GROUND = 1e-8;
 
 void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size)
@@ -69,7 +70,7 @@ static bool reserve(mps__amg *a, const mps_ppe_problem *problem)
 
 /* ---- matrix ---- */
 
-/* Numbers of the columns among the rows of all ranks; those of other ranks come from there. */
+/* Global numbers of the columns; those of other ranks are exchanged. */
 static bool number_columns(mps__amg *a, const mps_ppe_problem *problem, double *work)
 {
     a->n = problem->n;
@@ -80,7 +81,8 @@ static bool number_columns(mps__amg *a, const mps_ppe_problem *problem, double *
     return true;
 }
 
-/* Entries of row i into columns and values, the diagonal first; an empty row gets a diagonal of 1. @return how many */
+/* Copy the entries of row i to columns and values, the diagonal first; an empty row gets a diagonal
+ * of 1. @return how many */
 static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i)
 {
     const bool floating = problem->component && problem->component[i] >= 0;
@@ -97,7 +99,7 @@ static HYPRE_Int copy_row(mps__amg *a, const mps_ppe_problem *problem, int64_t i
 
 static void make_matrix(mps__amg *a, const mps_ppe_problem *problem)
 {
-    /* last < first: no row is here */
+    /* last < first: no rows on this rank */
     const HYPRE_BigInt first = (HYPRE_BigInt)a->first, last = first + (HYPRE_BigInt)a->n - 1;
     for (int64_t i = 0; i < problem->n; i++)
         a->length[i] = (HYPRE_Int)(problem->row[i + 1] - problem->row[i]) + 1;
@@ -135,7 +137,7 @@ static void make_cycle(mps__amg *a, const mps_hypre_settings *settings)
     HYPRE_BoomerAMGSetPMaxElmts(a->cycle, settings->row_entries);
     HYPRE_BoomerAMGSetStrongThreshold(a->cycle, settings->threshold);
     HYPRE_BoomerAMGSetAggNumLevels(a->cycle, settings->aggressive_levels);
-    /* but a direct solution on the coarsest grid */
+    /* except for the direct solution on the coarsest grid */
     HYPRE_BoomerAMGSetRelaxType(a->cycle, settings->relaxation);
     HYPRE_BoomerAMGSetRelaxOrder(a->cycle, 0);
     HYPRE_BoomerAMGSetNumSweeps(a->cycle, settings->sweeps);
@@ -149,7 +151,7 @@ static void *object_of(HYPRE_IJVector v)
     return object;
 }
 
-/* hypre collects its errors in one flag. */
+/* hypre accumulates its errors in one flag. */
 static int outcome(void)
 {
     const HYPRE_Int error = HYPRE_GetError();
@@ -157,7 +159,7 @@ static int outcome(void)
     return !error ? 0 : error & HYPRE_ERROR_MEMORY ? MPS_PPE_NOMEM : MPS_PPE_BREAKDOWN;
 }
 
-/* What this rank can find before hypre, which waits for all ranks. */
+/* Checks of this rank before it calls hypre, which waits for all ranks. */
 static int prepare(mps__amg *a, const mps_ppe_problem *problem, double *work)
 {
     const int64_t rows = problem->ranks ? problem->ranks->rows : problem->n;
@@ -172,7 +174,7 @@ int mps__amg_setup(mps__amg *a, const mps_ppe_problem *problem, const mps_hypre_
                    double *work)
 {
     void *matrix = NULL;
-    drop_objects(a); /* the pattern changes every step, so nothing is kept */
+    drop_objects(a); /* the pattern changes every step, so that nothing is kept */
     const int reason = prepare(a, problem, work);
     if (reason) return reason;
     HYPRE_ClearAllErrors();

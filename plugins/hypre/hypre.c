@@ -36,7 +36,8 @@ static bool symmetric(int32_t relaxation)
 static mps_status check(const mps_hypre_settings *s)
 {
     if (!s) return MPS_OK;
-    if (s->struct_size < sizeof *s) return MPS_E_ARG; /* `error` may be no part of it */
+    /* the struct may be too small to contain `error` */
+    if (s->struct_size < sizeof *s) return MPS_E_ARG;
     if (s->struct_size > sizeof *s)
         return fail(s, MPS_E_VERSION,
                     "mps_hypre_settings of %u bytes comes from a newer version; this one knows %zu",
@@ -62,7 +63,7 @@ static mps_status check(const mps_hypre_settings *s)
     return MPS_OK;
 }
 
-/* ---- MPI: ended here only if it was started here ---- */
+/* ---- MPI: finalised here only if initialised here ---- */
 
 static void stop_mpi(void)
 {
@@ -106,7 +107,7 @@ bool mps__hypre_place(MPI_Comm comm, int32_t rank, int32_t ranks)
     return at == rank && size == ranks;
 }
 
-/* The ranks of a handle are those of the communicator. */
+/* Check that the ranks of a handle are those of the communicator. */
 static mps_status check_place(const mps_sim *sim, const mps_hypre_settings *s)
 {
     int32_t rank, ranks;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conjugate gradients around BoomerAMG. Each pass solves A d = b - A p from d = 0 and adds d to p; passes go on until the true residual is
- * small in both norms. On many ranks each adds its rows up, and the sums of the ranks are joined exactly: all ranks have the same bytes and
- * take the same way. */
+/* Conjugate gradients around BoomerAMG. Each pass solves A d = b - A p from d = 0 and adds d to p;
+ * passes are repeated until the true residual is small in both norms. On many ranks each sums its
+ * rows, and the sums of the ranks are reduced exactly: all ranks have the same bytes and take the
+ * same branches. */
 #include "amg.h"
 #include <math.h>
 #include <string.h>
@@ -19,7 +20,7 @@ typedef struct component {
 typedef struct pcg {
     mps__amg amg;
     mps_hypre_settings settings;
-    double *block; /* [ARRAYS * capacity] all of the next */
+    double *block; /* [ARRAYS * capacity] memory of the arrays below */
     double *start, *residual, *d, *z, *direction, *image;
     component *sums; /* [sum_capacity] */
     int64_t capacity, sum_capacity;
@@ -37,7 +38,7 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* The sum and the maximum of the ranks' values, in one message; the sum is NaN after a failure. */
+/* Sum and maximum over the ranks, in one message; the sum is NaN after a failure. */
 static void total(const mps_ppe_problem *problem, double *sum, double *most)
 {
     mps_exact exact;
@@ -62,10 +63,10 @@ static double dot_here(const double *x, const double *y, int64_t n)
     return s;
 }
 
-/* A first guess with NaN or infinity becomes zero. */
+/* Zero a first guess that contains NaN or infinity. */
 static void clean(const mps_ppe_problem *problem, double *p)
 {
-    double sum = 0; /* NaN as soon as one entry is not finite */
+    double sum = 0; /* NaN if an entry is not finite */
     for (int64_t i = 0; i < problem->n; i++) sum += 0.0 * p[i];
     if (mps__hypre_worst(problem, sum != 0)) memset(p, 0, (size_t)problem->n * sizeof *p);
 }
@@ -78,7 +79,7 @@ static void join(void *into, const void *from)
     a->rows += b->rows;
 }
 
-/* The sums of all ranks in place of those of this one. */
+/* Replace the sums of this rank by those of all ranks. */
 static void join_components(const mps_ppe_problem *problem, component *sums)
 {
     if (!problem->ranks) return;
@@ -89,13 +90,14 @@ static void join_components(const mps_ppe_problem *problem, component *sums)
         sums[c].sum = failed ? NAN : mps_exact_value(&sums[c].exact);
 }
 
-/* Take the mean over each singular component off p. */
+/* Subtract the mean of p over each singular component. */
 static void center(const pcg *s, double *p)
 {
     const mps_ppe_problem *problem = s->problem;
     const int32_t components = problem->component ? problem->components : 0;
     if (components < 1) return;
-    memset(s->sums, 0, (size_t)components * sizeof *s->sums); /* the bytes between members too */
+    /* including the bytes between members */
+    memset(s->sums, 0, (size_t)components * sizeof *s->sums);
     for (int64_t i = 0; i < problem->n; i++) {
         const int32_t c = problem->component[i];
         if (c < 0) continue;
@@ -126,7 +128,7 @@ static double multiply(const pcg *s)
     return curvature;
 }
 
-/* Whether a curvature below zero is more than the rounding of a direction of no curvature. */
+/* Whether a negative curvature exceeds the rounding of a direction of zero curvature. */
 static bool negative(const pcg *s, double curvature)
 {
     double scale = 0, none = 0;
@@ -136,7 +138,7 @@ static bool negative(const pcg *s, double curvature)
     return -curvature > 1e-12 * scale;
 }
 
-/* How far a residual is above the wanted limits; at most 1: both are met. */
+/* How far a residual is above the requested limits; at most 1: both are met. */
 static double excess(const pcg *s, const double *r)
 {
     const mps_ppe_problem *problem = s->problem;
@@ -145,7 +147,8 @@ static double excess(const pcg *s, const double *r)
         for (int64_t i = 0; i < problem->n; i++)
             largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
     total(problem, &squares, &largest);
-    if (problem->ranks && isnan(squares)) return NAN; /* other ranks failed: into hypre no more */
+    /* other ranks failed: do not call hypre again */
+    if (problem->ranks && isnan(squares)) return NAN;
     return fmax(largest, sqrt(squares) / s->norm_limit);
 }
 
@@ -180,7 +183,7 @@ static bool reserve(pcg *s, const mps_ppe_problem *problem)
 
 /* ---- solution ---- */
 
-/* z = M^-1 r within what A can produce. @return r'z in *product */
+/* z = M^-1 r, projected onto the range of A. @return r'z in *product */
 static int precondition(pcg *s, double *product)
 {
     double reason = mps__amg_apply(&s->amg, s->residual, s->z);
@@ -204,7 +207,8 @@ static int advance(pcg *s, double product)
     return 0;
 }
 
-/* A d = residual, until the recursive residual is below the limit or `most` iterations are done. */
+/* Solve A d = residual until the recursive residual is below the limit or after `most`
+ * iterations. */
 static int descend(pcg *s, double limit, int32_t most, int32_t *iterations)
 {
     double product = 0, before;
@@ -227,7 +231,7 @@ static int descend(pcg *s, double limit, int32_t most, int32_t *iterations)
 static int pass(pcg *s, double *p, double share, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = s->problem;
-    center(s, s->residual); /* rounding must not leave what no p can produce */
+    center(s, s->residual); /* remove the part in the null space, which rounding leaves */
     const double limit = fmax(share, DEEPEST * excess(s, s->residual));
     const int failure = descend(s, limit, problem->max_iterations - result->iterations,
                                 &result->iterations);
@@ -248,7 +252,8 @@ static int passes(pcg *s, double *p, mps_ppe_result *result)
         const double now = result_excess(s->problem, result);
         if (now <= 1) return MPS_PPE_CONVERGED;
         const bool progress = now < 0.9 * best;
-        /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
+        /* a recurrence that broke down, or reached the level of rounding, may restart from its last
+         * result */
         if (failure && (failure != MPS_PPE_BREAKDOWN || (first && !progress))) return failure;
         idle = progress ? 0 : idle + 1;
         best = fmin(best, now);
@@ -256,7 +261,7 @@ static int passes(pcg *s, double *p, mps_ppe_result *result)
     return MPS_PPE_MAX_ITERATIONS;
 }
 
-/* First guess and its residual; false: no guess gives a finite one. */
+/* First guess and its residual; false: the residual of zero is not finite either. */
 static bool begin(const pcg *s, double *p, mps_ppe_result *result)
 {
     center(s, p);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cuts of space: recursive coordinate bisection of Zoltan. Each rank keeps all cuts, so that owners are found without messages. */
+/* Cuts of space: recursive coordinate bisection of Zoltan. Each rank stores all cuts, so that
+ * owners are found without messages. */
 #include "mpi_engine.h"
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +18,7 @@ static int count_axes(void *engine, int *failed)
     return ((const mps__mpi *)engine)->dim;
 }
 
-/* Names of places: rank and number, as unsigned numbers of 32 bits. */
+/* Global ids of positions: rank and index, as unsigned numbers of 32 bits. */
 static void list_places(void *engine, int entries, int local_entries, ZOLTAN_ID_PTR name,
                         ZOLTAN_ID_PTR local, int weights, float *weight, int *failed)
 {
@@ -42,7 +43,7 @@ static void give_place(void *engine, int entries, int local_entries, ZOLTAN_ID_P
 
 int mps__mpi_cuts_create(mps__mpi *e)
 {
-    /* Cuts lie between two places, never through several that are at the same coordinate. */
+    /* Cuts are between two positions, never through several with the same coordinate. */
     static char *const settings[][2] = {
         {"DEBUG_LEVEL", "0"},     {"LB_METHOD", "RCB"},      {"KEEP_CUTS", "1"},
         {"NUM_GID_ENTRIES", "2"}, {"NUM_LID_ENTRIES", "0"},  {"OBJ_WEIGHT_DIM", "1"},
@@ -91,7 +92,8 @@ static int cut_places(mps__mpi *e)
     return 1;
 }
 
-/* All ranks agree before they enter Zoltan, whose messages cannot be left. Without places the cuts stay. */
+/* All ranks agree before they call Zoltan, whose messages cannot be cancelled. Without positions
+ * the cuts do not change. */
 int mps__mpi_partition(void *engine, int32_t dim, int64_t n, const double *x, const float *weight)
 {
     mps__mpi *e = engine;

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Failing together. A rank that fails sends its text to rank 0. Rank 0 sends the first text that it gets to all ranks, so that all have the
- * same one. All loops that wait listen for these notices, which have a communicator of their own. */
+/* Collective failure. A rank that fails sends its text to rank 0. Rank 0 broadcasts the first text
+ * that it receives, so that all ranks report the same one. All waiting loops test for these
+ * notices, which have their own communicator. */
 #include "mpi_engine.h"
 #include <stdio.h>
 #include <string.h>
 
 enum { FAILED = 1, GOODBYE };
-/* A rank that failed waits for the text of rank 0, and at the end for messages of others [s]. */
+/* Time that a failed rank waits for the text of rank 0, and at the end for messages of others
+ * [s]. */
 static const double patience_text = 1, patience_end = 2;
 
 static void tell(mps__mpi *e, int32_t rank, int tag)
@@ -24,7 +26,7 @@ int mps__mpi_listen_begin(mps__mpi *e)
                      MPI_ANY_TAG, e->notices, &e->notice) != MPI_SUCCESS;
 }
 
-/* Rank 0: this text counts. */
+/* Rank 0: adopt this text for all ranks. */
 static void settle(mps__mpi *e, const char *text)
 {
     if (e->settled) return;
@@ -35,7 +37,7 @@ static void settle(mps__mpi *e, const char *text)
         if (!e->gone[k]) tell(e, k, FAILED);
 }
 
-/* A notice came. */
+/* Receive a notice. */
 static void hear(mps__mpi *e, const MPI_Status *status)
 {
     e->heard[MPS__MPI_TEXT - 1] = '\0';
@@ -106,7 +108,7 @@ static bool all_gone(const mps__mpi *e)
     return true;
 }
 
-/* Rank 0 stays until all others are gone: one of them may still fail and have to be heard. */
+/* Rank 0 waits until all others have left: one of them may still fail and send a notice. */
 bool mps__mpi_leave(mps__mpi *e)
 {
     if (e->rank > 0) tell(e, 0, GOODBYE);

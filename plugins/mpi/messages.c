@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Routes, exchanges, reductions and gathers, made of sends and receives: MPI can cancel those when a rank fails, but no collective call. */
+/* Routes, exchanges, reductions and allgathers, from sends and receives: MPI can cancel these when
+ * a rank fails, but no collective call. */
 #include "mpi_engine.h"
 #include <stdlib.h>
 #include <string.h>
@@ -11,7 +12,7 @@ static size_t aligned(size_t bytes)
     return (bytes + 63) & ~(size_t)63;
 }
 
-/* ---- reductions: recursive doubling --------------------------------------------------------------------------------- */
+/* ---- reductions: recursive doubling ---- */
 
 static int swap(mps__mpi *e, int32_t rank, const char *out, char *in, int64_t bytes)
 {
@@ -26,8 +27,9 @@ static void combine_all(int32_t count, size_t bytes, char *into, const char *fro
     for (int32_t k = 0; k < count; k++, into += bytes, from += bytes) combine(into, from);
 }
 
-/* Both ranks of a pair combine the same two values in the same order, so that they have the same bytes. Ranks beyond the largest power of
- * two give their values to another one and get the result. */
+/* Both ranks of a pair combine the same two values in the same order, so that they have the same
+ * bytes. Ranks beyond the largest power of two send their values to another rank and receive the
+ * result. */
 int mps__mpi_reduce(void *engine, int32_t count, size_t bytes, void *values, mps_combine_fn combine)
 {
     mps__mpi *e = engine;
@@ -63,9 +65,9 @@ int mps__mpi_reduce(void *engine, int32_t count, size_t bytes, void *values, mps
     return 0;
 }
 
-/* ---- gathers: in step k a rank has the 2^k blocks that end with its own, and sends them 2^k ranks further ------------- */
+/* ---- allgather: in step k a rank sends the 2^k blocks that end with its own to rank + 2^k ---- */
 
-/* Send or receive `count` blocks of ranks, modulo their number, of which `last` is the last. */
+/* Send or receive the `count` blocks of ranks that end with `last`, modulo the number of ranks. */
 static int move_blocks(mps__mpi *e, bool send, int32_t rank, int32_t last, int32_t count,
                        const int64_t *at, char *all)
 {
@@ -103,7 +105,7 @@ int mps__mpi_gather(void *engine, const void *own, const int64_t *bytes, void *a
     return 0;
 }
 
-/* ---- routes -------------------------------------------------------------------------------------------------------- */
+/* ---- routes ---- */
 
 typedef struct hello {
     int64_t rank, elements;
@@ -124,7 +126,8 @@ static int by_rank(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* How many ranks send to this one. All ranks have come here before one goes on, so that greetings of two routes are not mixed. */
+/* Count the ranks that send to this one. No rank returns before all have called, so that messages
+ * of two routes are not mixed. */
 static int count_senders(mps__mpi *e, int32_t count, const int32_t *to, int32_t *senders)
 {
     int32_t *number = mps__mpi_alloc(e, (size_t)e->ranks * sizeof *number);
@@ -152,7 +155,7 @@ static int greet(mps__mpi *e, int32_t count, const int32_t *to, const int64_t *s
     return 0;
 }
 
-/* Lists of a route: one block, numbers of elements before numbers of ranks. */
+/* Lists of a route in one block, numbers of elements before numbers of ranks. */
 static int fill_route(mps__mpi *e, int32_t count, const int32_t *to, const int64_t *sent,
                       int32_t senders, const hello *in, mps_route *route)
 {

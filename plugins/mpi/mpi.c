@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of the engine, and how it begins and ends. */
+/* The table of the engine, and its creation and destruction. */
 #include "mpi_engine.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 static const int64_t chunk = INT64_C(1) << 30;
 static const double watchdog = 300;
 
-/* Whether all ranks of a communicator are well. */
+/* Whether `well` is true on all ranks of a communicator. */
 static bool agree(MPI_Comm comm, bool well)
 {
     int wrong = !well, any = 1;
@@ -50,7 +50,7 @@ static mps__mpi *make(const mps_allocator *allocator, const mps__mpi_start *star
     return e;
 }
 
-/* Memory that MPI may still use stays. */
+/* Memory that MPI may still use is not freed. */
 static void release(mps__mpi *e)
 {
     if (e->stuck) return;
@@ -105,10 +105,10 @@ static int create(const mps_allocator *allocator, void **self, char *text, size_
     *self = e;
     if (agree(start->comm, ready)) return 0;
     snprintf(text, size, "MPI or Zoltan does not start on %s rank", ready ? "another" : "this");
-    return 1; /* what MPI and Zoltan hold stays */
+    return 1; /* objects of MPI and Zoltan are not freed */
 }
 
-/* After a failure the communicators stay: messages may still come. */
+/* After a failure the communicators are kept: messages may still arrive. */
 static void destroy(const mps_allocator *allocator, void *self)
 {
     mps__mpi *e = self;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An engine of ranks over MPI. Except for Zoltan, no call waits inside of MPI: each waits in a loop that also listens for failures. */
+/* An engine of ranks on MPI. Except in Zoltan, no call blocks in MPI: each waits in a loop that
+ * also tests for failures. */
 #ifndef MPS_MPI_ENGINE_H
 #define MPS_MPI_ENGINE_H
 
@@ -8,13 +9,13 @@
 
 enum { MPS__MPI_TEXT = 512 };
 
-/* What mps_ranks_ops.user leads to when create is called. */
+/* Data that mps_ranks_ops.user points to when create is called. */
 typedef struct mps__mpi_start {
     MPI_Comm comm;
     int64_t chunk; /* most bytes of a message; 0: 2^30 */
 } mps__mpi_start;
 
-/* Messages under way. */
+/* Pending messages. */
 typedef struct mps__mpi_list {
     MPI_Request *request;
     int32_t count, room;
@@ -27,24 +28,25 @@ typedef struct mps__mpi {
     int64_t chunk;
     double watchdog; /* [s] */
 
-    /* failing together: rank 0 says which text counts */
+    /* collective failure: rank 0 decides which text counts */
     bool failed, settled; /* a rank failed; `said` is the text of rank 0 */
-    bool stuck;           /* messages did not end: MPI may still use their memory */
+    bool stuck;           /* messages did not complete: MPI may still use their memory */
     char own[MPS__MPI_TEXT], heard[MPS__MPI_TEXT];
     const char *text;
-    MPI_Request notice; /* the next notice that comes */
+    MPI_Request notice; /* receive of the next notice */
     mps__mpi_list telling;
-    uint8_t *gone; /* [ranks] rank 0: who has said goodbye */
+    uint8_t *gone; /* [ranks] rank 0: ranks that have left */
 
     /* messages */
-    mps__mpi_list exchange, other; /* those between exchange_begin and _end, and those of a call */
+    /* those between exchange_begin and _end; those of a single call */
+    mps__mpi_list exchange, other;
     char *scratch;
     size_t scratch_bytes;
 
     /* cuts */
     struct Zoltan_Struct *zoltan;
     bool cut;
-    int32_t dim; /* from here: of the partition under way */
+    int32_t dim; /* from here on: of the partition in progress */
     int64_t n;
     const double *x;
     const float *weight;
@@ -54,31 +56,31 @@ mps_ranks_ops mps__mpi_table(const mps__mpi_start *start);
 
 /* ---- failing.c ---- */
 int mps__mpi_listen_begin(mps__mpi *e);
-/* Whether a rank has failed, as far as this one knows. */
+/* Whether a rank is known to have failed. */
 bool mps__mpi_failed(mps__mpi *e);
 void mps__mpi_fail(void *engine, const char *text);
 const char *mps__mpi_failure(void *engine);
-/* Fails for a code of MPI. @return 1 */
+/* Fail with a code of MPI. @return 1 */
 int mps__mpi_error(mps__mpi *e, const char *call, int code);
-/* Say goodbye. @return whether no other rank sends anything more */
+/* Leave the ranks. @return whether no other rank sends any more */
 bool mps__mpi_leave(mps__mpi *e);
 
 /* ---- wait.c ---- */
 void *mps__mpi_alloc(mps__mpi *e, size_t size);
 void mps__mpi_release(mps__mpi *e, void *block);
-/* Memory that lasts to the next call; NULL: the ranks have failed. */
+/* Memory valid until the next call; NULL: the ranks have failed. */
 void *mps__mpi_scratch(mps__mpi *e, size_t bytes);
 /* Begin to send or receive. @return non-zero: the ranks have failed */
 int mps__mpi_send(mps__mpi *e, mps__mpi_list *list, int tag, int32_t rank, const void *data,
                   int64_t bytes);
 int mps__mpi_receive(mps__mpi *e, mps__mpi_list *list, int tag, int32_t rank, void *data,
                      int64_t bytes);
-/* Wait for all messages of a list; `call` is named if that takes too long. */
+/* Wait for all messages of a list; a timeout reports the name `call`. */
 int mps__mpi_wait(mps__mpi *e, mps__mpi_list *list, const char *call);
-/* Cancel all messages, after a failure: arrays of the library are not used any more. */
+/* Cancel all messages after a failure: arrays of the library are not accessed any more. */
 void mps__mpi_stop(mps__mpi *e);
 double mps__mpi_now(void);
-/* Leave the processor to others: later turns rest longer. */
+/* Yield the processor; sleep in later iterations of a waiting loop. */
 void mps__mpi_rest(int64_t turn);
 
 /* ---- messages.c ---- */

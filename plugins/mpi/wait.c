@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory, messages that begin, and the loop that waits for them. */
+/* Memory, start of messages, and the loop that waits for them. */
 #include "mpi_engine.h"
 #include <sched.h>
 #include <stdio.h>
 #include <string.h>
 #include <time.h>
 
-/* Turns of a loop that waits: the first keep the processor, the next leave it to processes that are ready, the others sleep. */
+/* Iterations of a waiting loop: the first ones spin, the next ones yield the processor, the others
+ * sleep. */
 enum { BUSY = 200, YIELDING = 2000, SLEEP = 50000 /* ns */ };
-/* Busy turns between two looks for failures: to look costs as much as a turn. */
+/* Busy iterations between two tests for failures: a test costs as much as an iteration. */
 enum { LISTEN = 16 };
-/* Cancelled messages end at once, or when the other rank has heard of the failure [s]. */
+/* Time for cancelled messages to end: at once, or when the other rank knows of the failure [s]. */
 static const double patience = 2;
 
 void *mps__mpi_alloc(mps__mpi *e, size_t size)
@@ -64,7 +65,8 @@ static void stop(mps__mpi *e, mps__mpi_list *list)
     list->count = 0;
 }
 
-/* A rank that has failed cancels its receives and sends no more. A send ends if the other rank receives it; else it is left to MPI. */
+/* A rank that has failed cancels its receives and sends no more. A send completes if the other rank
+ * receives it; otherwise MPI keeps it. */
 void mps__mpi_stop(mps__mpi *e)
 {
     if (e->exchange.count > 0) stop(e, &e->exchange);

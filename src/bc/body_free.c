@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body of fluid without a wetted wall about it falls freely.
+/* A connected volume of fluid without a wetted wall around it falls freely.
  *
- * Pressures are those beyond a fluid that moves with the tank, b = g - a_tank. This is exact where
- * the tank holds the fluid. Nothing holds a drop, and where the eigenvalues of M_i are bounded
- * (moments.bounded) gradients give back only part of b: drops of some ten particles fell at
- * 0.6-0.95 g, and a tank carried along drops that it did not touch. So in a free body a_tank is g
- * and b = 0. In large bodies few particles are bounded: a body of more than LARGE particles counts
- * as held. A body without a particle on the surface is left as it is. */
+ * Pressures are relative to a fluid that moves with the tank, b = g - a_tank. This is exact where
+ * the tank supports the fluid. A droplet is not supported, and where the eigenvalues of M_i are
+ * bounded (moments.bounded), gradients return only part of b: droplets of some ten particles fell
+ * at 0.6-0.95 g, and a tank carried along droplets that it did not touch. So in a free volume
+ * a_tank is set to g, which gives b = 0. In large volumes few particles are bounded: a volume of
+ * more than LARGE particles counts as supported. A volume without surface particle is not
+ * changed. */
 #include "helpers.h"
 
 enum { LARGE = 1000 };
@@ -18,10 +19,10 @@ static const mps_use uses[USES] = {[REGION] = {"region", MPS_USE_READ},
 typedef struct fields {
     const int32_t *region;
     double *tank_acceleration;
-    int32_t *role, *body; /* [n] MPS_BODY_...; number of a free body, or -1 */
+    int32_t *role, *body; /* [n] MPS_BODY_...; number of a free volume, or -1 */
 } fields;
 
-/* Wetted solids hold the fluid beside them. Spray and dry solids take no part. */
+/* Wetted solids support the fluid beside them. Spray and dry solids do not count. */
 MPS_ROW void role_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* No pressure falls far below that of vapour: where liquid or gas would have to pull harder, it gives
- * way. A row of the fluid or of a wetted wall has a least pressure,
+/* Pressure is bounded below by the vapour pressure: liquid or gas that would need more suction
+ * separates. A row of the fluid or of a wetted wall has the lower bound
  *
  *   p_i >= p_v - p_a =: -least,
  *
- * p_a that of the surroundings, where p = 0. What the model leaves is room without liquid or gas,
- * which closes when the pressure rises. Rows count whose last pressure is below half of it: flows
- * without such suction keep their bytes, and their solution costs nothing more. A pressure that
- * falls from above half of the least one to below it in one step is held from the next step on. */
+ * p_a the ambient pressure, where p = 0. The void that the model leaves closes when the pressure
+ * rises. The bound applies to rows whose last pressure is below half of it: flows without such
+ * suction keep their bytes and cost nothing. A pressure that falls within one step from above half
+ * of the bound to below the bound is bounded from the next step on. */
 #include "helpers.h"
 
 enum { LEAST, SETTINGS };
@@ -15,7 +15,7 @@ static const mps_setting settings[SETTINGS] = {
     [LEAST] = {"least", "Pa", "Pressure of vapour below that of the surroundings", MPS_TYPE_REAL,
                99e3, 1.0, 1e12}};
 
-/* Share of the least pressure from which on a row counts. */
+/* Fraction of the bound from which on a row counts. */
 static const double NEAR = 0.5;
 
 enum { REGION, PRESSURE, PRESSURE_CONDITION, PRESSURE_VALUE, USES };

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Helpers that several models of boundaries share. */
+/* Helpers of the models of boundaries. */
 #include "helpers.h"
 
 bool mps__upward(const mps_view *v, double up[3])

@@ -1,50 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall pressure by action and reaction: a wall shows the pressure that the fluid beside it
+/* Wall pressure by action and reaction: the load of a wall is the pressure that the fluid beside it
  * received.
  *
  * The row of a wall requires the pressure that stops all fluid within its radius in one step, at
- * whatever distance from the wall. The gradient gives a particle only the share W/r^2 of the pair,
- * so the particle moves on and the row requires the same again: for one row of particles at 1, 1.5
- * and 1.9 dp the impulse of these pressures is 2, 9 and 140 times the momentum. So p_i is right for
- * the equation and wrong as a load.
+ * any distance from the wall. The gradient gives a particle only the weight W/r^2 of the pair, so
+ * that the particle continues to move and the row requires the same pressure again: for one layer
+ * of particles at 1, 1.5 and 1.9 dp the impulse of these pressures is 2, 9 and 140 times the
+ * momentum. So p_i is right for the equation and wrong as a load.
  *
  *   P_i = p' + sum_j c_ij e_j,   c_ij = s_j V D/(n0 A_i) w_ij n.B_j r_ij
  *
- * over the fluid j about wall i, r_ij = x_j - x_i, w = W/r^2, n the normal, A_i the area,
- * V = dp^D. p'_j = p_j - rho b.r_ij is the pressure of j carried to the wall, p' its kernel mean.
- * c_ij is the share of j in the face. In the lattice the shares add up to 1 with s_j = 2 inside the
- * fluid, where the other half of B_j belongs to the row behind, and s_j = 1 on the surface. e_j is
- * how much the pressure rises to the wall beyond p'_j: inside the fluid with the acceleration a_j
- * that all pressures gave it, e_j = rho (a_j + b).r_ij; on the surface, where the wall alone
- * pushes, e_j = p_i - p'_j. Where pressures are linear P_i is p_i.
- *
- * A wall shows no more suction than it has in the equation: one from which the liquid separates
- * (separation.void) shows none.
- *
- * Above the contact line no liquid touches the wall, but the equation continues the static pressure
- * of the liquid to it, in calm water down to -2 rho g dp. A wall shows only the suction beyond
- * that, or the suction in the fluid about it: where P_i < 0 it becomes
- *
- *   max(P_i, min(P_i - least, pull)),   least = min(0, min_j p'_j),   pull = min(0, min_j p_j),
- *
- * least over the fluid j about it that is on the surface or next to it and does not pull, p_j >= 0.
- * So a dry wall shows 0.
- *
- * Where void reaches the wall (separation.void: it has a least pressure p_i >= value_i), liquid
- * about it does not hold on to it, whatever its pressure: drops and liquid in the angle of two
- * walls are not always found to be on the surface, and pull. There pull is no lower than what the
- * wall itself pulls in the equation beyond that least pressure, min(0, p_i - value_i). Of a velocity
- * jump, without least pressures, the suction stays. The flow does not change.
- *
- * cover: p' has no place in it. On all faces within the radius, three times the width of a toe of
- * two rows, it would show twice the momentum that the fluid loses. So a face takes p' on the share
- * only that lies below liquid, covered_share(), and the pressure of the void on the rest. That is 0,
- * or that of trapped gas (gas.pocket), which is in the least pressure. With `cover` 0 a face takes
- * p' on all of it. */
+ * over the fluid j around wall i, r_ij = x_j - x_i, w = W/r^2, n the normal, A_i the area,
+ * V = dp^D. p'_j = p_j - rho b.r_ij is the pressure of j extrapolated to the wall, p' its kernel
+ * mean. c_ij is the fraction of the face that belongs to j. On a lattice these fractions add up to
+ * 1 with s_j = 2 inside the fluid, where the other half of B_j belongs to the layer behind, and
+ * s_j = 1 on the surface. e_j is the pressure rise from p'_j to the wall: inside the fluid
+ * e_j = rho (a_j + b).r_ij, with the acceleration a_j due to all pressures; on the surface, where
+ * only the wall acts, e_j = p_i - p'_j. For linear pressures P_i is p_i. */
 #include "helpers.h"
 
-/* Of a wall: another one is beside it up to this squared distance [dp2], and in its plane up to this
- * height [dp]; liquid is before it from this height on [dp]. */
+/* Another wall is beside a wall up to this squared distance [dp2], and in its plane up to this
+ * height [dp]; liquid is in front of it from this height on [dp]. */
 static const double BESIDE = 1.5, PLANE = 0.3, BEFORE = 0.1;
 
 enum { COVER, SETTINGS };
@@ -67,7 +43,7 @@ typedef struct fields {
     double *wall_pressure;
 } fields;
 
-/* Sums over the fluid about a wall particle. */
+/* Sums over the fluid around a wall particle. */
 typedef struct contact {
     double weight, p, rise, least, pull; /* sum W, sum W p'_j, A_i sum c_ij e_j, least, pull */
 } contact;
@@ -112,8 +88,8 @@ MPS_ROW contact sum_contact(const int dim, const mps_view *v, const fields *f, i
     return c;
 }
 
-/* A neighbour of a wall, seen along its normal: height above the face, s, the way to it along the
- * face, and its square. */
+/* A neighbour of a wall, relative to its face: height above it, displacement s along it, and
+ * s^2. */
 typedef struct foot {
     double height, s[3], square;
 } foot;
@@ -129,8 +105,8 @@ MPS_ROW foot find_foot(const int dim, const mps_pair *q, const double n[3])
     return at;
 }
 
-/* Nearest liquid along the face of wall i; on an edge or in a corner, where a wall beside i is not in
- * the plane of its face, one at s = 0. */
+/* Nearest liquid along the face of wall i. On an edge or in a corner, where an adjacent wall is not
+ * in the plane of its face, liquid at s = 0. */
 MPS_ROW foot nearest_foot(const int dim, const mps_view *v, const fields *f, int64_t i,
                           const double n[3])
 {
@@ -148,10 +124,16 @@ MPS_ROW foot nearest_foot(const int dim, const mps_view *v, const fields *f, int
     return nearest;
 }
 
-/* Share of the face of wall i that lies below liquid: all of it with liquid or a wetted wall on both
- * sides; at the edge of the liquid what the cell of the particle nearest along the face leaves,
- * 1 - |s|/dp. The other side counts in full up to |s| = dp, less beyond that up to the radius, where
- * rows are stretched. */
+/* Fraction of the face of wall i below liquid. All of it, if liquid or a wetted wall is on both
+ * sides; at the edge of the liquid the part below the cell of the nearest particle along the face,
+ * 1 - |s|/dp. The other side counts fully up to |s| = dp, and less beyond that up to the radius,
+ * where layers are stretched.
+ *
+ * cover: p' does not depend on where along a face the liquid is. On all faces within the radius,
+ * three times the width of a wave toe of two layers, it would give twice the momentum that the
+ * fluid loses. So p' acts on the fraction of a face below liquid, covered_share(), and the pressure
+ * of the void on the rest: 0, or that of trapped gas (gas.pocket), which is contained in the lower
+ * bound. With `cover` 0 p' acts on the whole face. */
 MPS_ROW double covered_share(const int dim, const mps_view *v, const fields *f, int64_t i,
                              const double n[3])
 {
@@ -173,6 +155,23 @@ MPS_ROW double covered_share(const int dim, const mps_view *v, const fields *f, 
     return mps_smaller(1, mps_larger(0, 1 - near / v->dp) + across);
 }
 
+/* The suction of a load is at most that of the equation: a wall from which the liquid separates
+ * (separation.void) has none.
+ *
+ * Above the contact line no liquid touches the wall, but the equation continues the static pressure
+ * of the liquid to it, in calm water down to -2 rho g dp. The load contains only the suction beyond
+ * that, or the suction in the fluid around it: P_i < 0 becomes
+ *
+ *   max(P_i, min(P_i - least, pull)),   least = min(0, min_j p'_j),   pull = min(0, min_j p_j),
+ *
+ * least over the fluid j around the wall that is on the surface or next to it and has no suction,
+ * p_j >= 0. So the load of a dry wall is 0.
+ *
+ * Where void reaches the wall (separation.void: it has a lower bound p_i >= value_i), liquid does
+ * not adhere to it at any pressure: droplets and liquid in the angle between two walls are not
+ * always detected as surface, and have suction. There pull is no lower than the suction of the wall
+ * itself beyond that bound, min(0, p_i - value_i). For a velocity jump, which has no lower bounds,
+ * the suction stays. The flow does not change. */
 MPS_ROW double pressure_of(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double n[3];

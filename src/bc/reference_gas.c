@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures in a closed tank, as W22 has it: p = 0 in the uppermost layer of the gas,
- * `layer` dp thick, against gravity. These particles are Dirichlet rows: the equation does not hold
- * there, and gas may leave through them in a long run. */
+/* Pressure datum in a closed tank, after Wen, Zhao & Wan 2022 (W22): p = 0 in the uppermost layer
+ * of the gas, `layer` dp thick, against gravity. These particles are Dirichlet rows: the equation
+ * is not solved there, and gas may leave through them in a long run. */
 #include "helpers.h"
 
 enum { PHASE, LAYER, SETTINGS };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures in a tank that is full to its lid: after the solution the mean pressure of
- * the highest wetted wall particles is subtracted from all pressures. Differences of pressure, and
- * so the flow, do not change, and no fluid leaves as through a fixed pressure. The model does
- * nothing where a surface, a Dirichlet row or a compressible phase fixes the level.
+/* Pressure datum in a tank that is full up to its lid: after the solution the mean pressure of the
+ * highest wetted wall particles is subtracted from all pressures. Pressure differences, and so the
+ * flow, do not change, and no fluid leaves as it would through a fixed pressure. The model does
+ * nothing if a free surface, a Dirichlet row or a compressible phase sets the datum.
  *
- * Weights fall with the depth below the highest place as exp(-depth/(layer dp)), times the wetted
- * share: in a rolling tank the level passes smoothly from one corner to the other. */
+ * Weights decrease with the depth below the highest point as exp(-depth/(layer dp)), times the
+ * wetted fraction: in a rolling tank the datum moves smoothly from one corner to the other. */
 #include "helpers.h"
 
 enum { LAYER, SETTINGS };
@@ -26,7 +26,7 @@ typedef struct fields {
     double up[3], top, mean; /* against gravity; height of the highest wall; its pressure */
 } fields;
 
-/* Wall particles in the equation. */
+/* Whether a wall particle is in the equation. */
 static inline bool wetted(const mps_view *v, const fields *f, int64_t i)
 {
     return mps_is_wall(v, i) && mps_region_of(f->region, i) < MPS_REGION_SURFACE;

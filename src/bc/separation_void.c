@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Separation: walls do not pull where void can reach. Without a gas in the void the liquid leaves a
- * wall as soon as the wall would have to pull and void is beside it: behind an edge, at a crest
- * that falls, on a wall that moves away. A wall particle with a surface particle, spray or a dry
- * wall among its near neighbours has a least pressure,
+/* Separation: walls exert no suction where void can reach them. Without gas in the void the liquid
+ * separates from a wall as soon as the wall would exert suction and void is beside it: behind an
+ * edge, at a falling crest, on a wall that moves away. A wall particle with a surface particle,
+ * spray or a dry wall among its near neighbours has a lower bound of pressure,
  *
  *   p_i >= min(0, min_j rho_j b.(x_i - x_j)),   b = g - a_tank,
  *
- * over the surface particles j about it: the static pressure of a wall above the contact line, so
- * that calm water does not change. Walls with liquid alone about them may pull: void reaches them
- * only after the liquid has left the walls beside them.
+ * over the surface particles j around it: the static pressure of a wall above the contact line, so
+ * that calm water does not change. Walls with only liquid around them may exert suction: void
+ * reaches them only after the liquid has separated from the adjacent walls.
  *
  * A velocity jump of the tank is an impulse with its own suction, and a gain below 1 spreads it
- * over several steps: there is no least pressure in the first `hold` steps. */
+ * over several steps: no bound applies in the first `hold` steps. */
 #include "helpers.h"
 
 enum { HOLD, SETTINGS };
@@ -33,7 +33,7 @@ typedef struct fields {
     double *value;
 } fields;
 
-/* Least pressure of wall i; +inf: no void near. */
+/* Lower bound of the pressure of wall i; +inf: no void near. */
 MPS_ROW double least_pressure(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;

@@ -1,30 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free surface by number density n and asymmetry A, W22 (11)(12), Z14 (16)(17). With |A|0 that of
- * the surface row of a lattice, a particle is on the surface if one of these holds:
+/* Free surface by number density n and asymmetry A, W22 (11)(12), Z14 (16)(17); W22: Wen, Zhao &
+ * Wan 2022, Z14: Zhang, Wan & Hino 2014. With |A|0 the asymmetry of the surface layer of a lattice,
+ * a particle is on the surface if one of these holds:
  *
  *   n < lone n0
  *   n < low n0   and  |A| > low_share |A|0
  *   n < high n0  and  |A| > share |A|0
  *   |A|/|A|0 > film n/n0
  *
- * The papers have lone = low: n < low n0 alone. In a violent flow inner particles fall below low n0
- * too, and p = 0 amid high pressure tears the fluid; so some asymmetry is required there.
- * The last line finds films of one row on a wall. They have n0 and more, because the wall is near,
- * but are more one-sided than any surface. As inner particles such rows respond to their own
- * pressure with the wrong sign. The factor n keeps the pressure of particles that are squeezed
- * together, and one-sided for that reason.
- *
- * Particles with too little fluid about them are spray. The papers test wall particles too
+ * Particles with too little fluid around them are spray. The papers test wall particles too
  * (walls = 1): dry walls have p = 0.
  *
- * Beside a wall that continues above the surface n is too large and |A| too small. There a
- * neighbour of the surface is on the surface as well if n < contact_low n0 and
- * |A| > contact_share |A|0 (contact = 1). Without this test such particles change between surface
- * and inside from step to step: a 3-D tank does not come to rest, and a trough in 2-D breaks up at
- * the wall.
- *
- * The row below the surface reaches past it, where there are no particles: its pairs with the
- * surface carry that flux too (complete = 1). */
+ * The kernel of the layer below the surface extends beyond the surface, where there are no
+ * particles: its pairs with the surface also carry that flux (complete = 1). */
 #include "helpers.h"
 
 enum {
@@ -79,12 +67,12 @@ static const mps_use uses[USES] = {[NUMBER_DENSITY] = {"number_density", MPS_USE
 typedef struct fields {
     const double *number_density, *asymmetry;
     int32_t *region;
-    int32_t *member, *mark; /* [n] fluid of region `from`; rows that a pass has found */
+    int32_t *member, *mark; /* [n] fluid of region `from`; particles found by a pass */
     int32_t from, to;
     double a0; /* |A|0 */
 } fields;
 
-/* |A| of a particle in the top row of a lattice that fills the half space below it. */
+/* |A| of a particle in the top layer of a lattice that fills the half space below it. */
 static double lattice_asymmetry(const mps_stencil *t)
 {
     const int reach = (int)(t->re / t->dp) + 1, across = t->dim == 3 ? reach : 0;
@@ -98,14 +86,21 @@ static double lattice_asymmetry(const mps_stencil *t)
     return t->dim * sum / t->n0;
 }
 
-/* By n/n0 and |A|/|A|0. */
+/* Surface test by n/n0 and |A|/|A|0.
+ *
+ * The papers have lone = low: n < low n0 alone. In violent flow, inner particles fall below low n0
+ * too, and p = 0 within high pressure tears the fluid; so some asymmetry is required as well. The
+ * last condition detects films of one layer on a wall. Their n is n0 or more, because the wall is
+ * near, but they are more asymmetric than any surface. As inner particles they would respond to
+ * their own pressure with the wrong sign. The factor n excludes compressed particles, which are
+ * asymmetric too and must keep their pressure. */
 static inline bool on_surface(const double *k, double n, double a)
 {
     return n < k[LONE] || (n < k[LOW] && a > k[LOW_SHARE]) || (n < k[HIGH] && a > k[SHARE]) ||
            a > k[FILM] * n;
 }
 
-/* Whether the kernel sum over the fluid, with or without its spray, is less than `enough`. */
+/* Whether the kernel sum over the fluid, with or without spray, is less than `enough`. */
 MPS_ROW bool detached(const int dim, const mps_view *v, const int32_t *region, int64_t i,
                       bool with_spray, double enough)
 {
@@ -141,7 +136,7 @@ MPS_ROW void own_row(const int dim, const mps_view *v, const fields *f, int64_t 
 }
 MPS_ROWS(own_rows, own_row, fields)
 
-/* ---- particles beside others: each looks about itself ---------------------------------------- */
+/* ---- particles beside others: each checks its neighbours ------------------------------------- */
 
 MPS_ROW void from_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
@@ -158,7 +153,7 @@ MPS_ROW bool inner_beside(const mps_view *v, const fields *f, int64_t i)
     int64_t p = mps_stencil_begin(t, i), end = mps_stencil_end(t, i);
     int32_t any = 0;
     if (!mps_is_fluid(v, i) || mps_region_of(f->region, i) != MPS_REGION_INNER) return false;
-    for (; p + 4 <= end && !any; p += 4) /* most rows find none */
+    for (; p + 4 <= end && !any; p += 4) /* most particles find none */
         any = member[j[p]] | member[j[p + 1]] | member[j[p + 2]] | member[j[p + 3]];
     for (; p < end && !any; p++) any = member[j[p]];
     return any != 0;
@@ -178,7 +173,7 @@ MPS_ROW void spread_row(const int dim, const mps_view *v, const fields *f, int64
 }
 MPS_ROWS(spread_rows, spread_row, fields)
 
-/* Make the regions visible at neighbours, or the members. */
+/* Halo exchange of the regions, or of the members. */
 static int refresh(mps_stage *s, int32_t *values)
 {
     return mps_stage_refresh(s, 1, &(mps_shared){values, 1, MPS_TYPE_INTEGER});
@@ -195,8 +190,8 @@ static int spread(mps_stage *s, fields *f, int32_t from, int32_t to)
     return 0;
 }
 
-/* n/n0 and |A|/|A|0 of a particle as if there were no spray: no pressure acts on spray, so that it
- * counts as void for its neighbours. */
+/* n/n0 and |A|/|A|0 of a particle without spray: no pressure acts on spray, so that it counts as
+ * void for its neighbours. */
 MPS_ROW void without_spray(const int dim, const mps_view *v, const fields *f, int64_t i, double *n,
                            double *a)
 {
@@ -214,9 +209,9 @@ MPS_ROW void without_spray(const int dim, const mps_view *v, const fields *f, in
     *a = sqrt(square) / f->a0;
 }
 
-/* Whether an inner particle beside spray is on the surface, or one of the last of its body. Fluid
- * that is left amid spray has p = 0: one or two particles that share a pressure only with the walls
- * of a corner would take all the momentum that these walls give. */
+/* Whether an inner particle beside spray is on the surface, or one of the last of its volume of
+ * fluid. Fluid within spray has p = 0: one or two particles that exchange pressure only with the
+ * walls of a corner would take up all the momentum from these walls. */
 MPS_ROW bool beside_spray(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const double *k = v->setting;
@@ -241,7 +236,7 @@ MPS_ROW void any_spray_row(const int dim, const mps_view *v, const fields *f, in
 }
 MPS_SUMS(any_spray_rows, any_spray_row, fields)
 
-/* Inner particles beside spray that are on the surface without it. */
+/* Inner particles beside spray that are on the surface if spray is ignored. */
 static int look_beside_spray(mps_stage *s, fields *f)
 {
     double any;
@@ -270,6 +265,10 @@ MPS_ROW bool at_contact(const int dim, const mps_view *v, const fields *f, int64
     return wall && surface;
 }
 
+/* Beside a wall that continues above the surface n is too large and |A| too small. There a
+ * neighbour of the surface is on the surface as well if n < contact_low n0 and |A| > contact_share
+ * |A|0 (contact = 1). Without this test such particles change between surface and inside from step
+ * to step: a 3-D tank does not come to rest, and a trough in 2-D breaks up at the wall. */
 MPS_ROW void contact_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const double *k = v->setting;

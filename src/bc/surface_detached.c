@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Spray of the heavier phases where several phases fill the tank and there is no free surface: a
  * particle is spray if
- *   sum_j W_ij min(1, rho_j/rho_i) < spray n0   over the fluid j about it.
- * Such a drop flies through the gas and does not feel its pressure. In the pressure equation a
- * single drop before a wall gets a pressure above the wall's, which draws it into the wall.
+ *   sum_j W_ij min(1, rho_j/rho_i) < spray n0   over the fluid j around it.
+ * Such a droplet moves through the gas unaffected by its pressure. In the pressure equation a
+ * single droplet in front of a wall gets a pressure above the wall's, which pulls it into the wall.
  * Particles of the lightest phase are never spray. */
 #include "helpers.h"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free surface by number density alone, Z14 (15): n < beta n0, fluid and wall particles alike. Dry
- * walls are on the surface too and have p = 0. */
+/* Free surface by number density alone, Z14 (15), Z14: Zhang, Wan & Hino 2014: n < beta n0, for
+ * fluid and wall particles. Dry walls are on the surface too and have p = 0. */
 #include "helpers.h"
 
 enum { BETA, SETTINGS };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Walls of the papers: wall particles take part in the pressure equation as fluid does. Dummies
- * have no equation; they get the kernel mean of the fluid and wall pressures about them. */
+/* Walls of the papers: wall particles are rows of the pressure equation, as fluid particles are.
+ * Dummies have no row; they get the kernel mean of the fluid and wall pressures around them. */
 #include "helpers.h"
 
 /* ---- density of solids ----------------------------------------------------------------------- */
@@ -17,7 +17,8 @@ typedef struct densities {
     double *pressure_density;
 } densities;
 
-/* Density of the fluid nearest to a solid particle, spray aside; its own without any near. */
+/* Density of the fluid nearest to a solid particle, except spray; without fluid near, its own
+ * density. */
 MPS_ROW double density_beside(const int dim, const mps_view *v, const densities *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -39,7 +40,7 @@ MPS_ROW void density_row(const int dim, const mps_view *v, const densities *f, i
 }
 MPS_ROWS(density_rows, density_row, densities)
 
-/* Solids have no density of their own: beside gas they must not be as heavy as water. */
+/* Solids have no density of their own: beside gas they must not have the density of water. */
 static int take_densities(mps_stage *s)
 {
     densities f = {.density = s->data[DENSITY],
@@ -56,7 +57,7 @@ static const mps_use pressure_uses[PRESSURE_USES] = {
     [PRESSURE] = {"pressure", MPS_USE_NEIGHBOURS | MPS_USE_DUMMIES | MPS_USE_CHANGE}};
 
 typedef struct pressures {
-    double *pressure; /* written of dummies, read of the others */
+    double *pressure; /* written for dummies, read for the other particles */
 } pressures;
 
 MPS_ROW void dummy_row(const int dim, const mps_view *v, const pressures *f, int64_t i)

@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Wall particles as half cells: the wall row is the mirrored lattice cut in two, so that fluid
- * pairs count once, wall-wall pairs half, and dummies drop out (the mirror image of a dummy is the
- * particle itself). Exact on a lattice, in corners too.
+ * pairs count once, wall-wall pairs half, and dummies are omitted (the mirror image of a dummy is
+ * the particle itself). Exact on a lattice, in corners too.
  *
- * A wall particle takes part as far as there is fluid about it:
+ * A wall particle counts with its wetted fraction:
  *   wetted_share = sum W over the fluid / sum W over a half space full of fluid, at most 1.
  * A wall particle without fluid is DRY. */
 #include "helpers.h"
 
-/* Limit of W/r^2 over that of the nearest fluid particle, see density_beside(). */
+/* Limit of W/r^2 relative to that of the nearest fluid particle, see density_beside(). */
 static const double NEARLY = 0.7;
 
-/* A fluid particle is before a face if it is so far above its plane, over dp. */
+/* A fluid particle is in front of a face from this height above its plane on [dp]. */
 static const double ABOVE = 0.1;
 
 enum { DENSITY, REGION, WETTED_SHARE, PRESSURE_DENSITY, WALL_FACTOR, USES };
@@ -32,12 +32,12 @@ static const mps_channel channels[] = {
 
 typedef struct fields {
     const double *density;
-    int32_t *region; /* written of walls, read of fluid */
+    int32_t *region; /* written for walls, read for fluid */
     double *wetted_share, *pressure_density;
     double full; /* kernel sum over a half space */
 } fields;
 
-/* Kernel sum over a half lattice without its boundary row. */
+/* Kernel sum over a half lattice without its boundary layer. */
 static double half_sum(const mps_stencil *t)
 {
     const int reach = (int)(t->re / t->dp) + 1, across = t->dim == 3 ? reach : 0;
@@ -51,9 +51,10 @@ static double half_sum(const mps_stencil *t)
     return sum;
 }
 
-/* Kernel sum over the fluid. Spray does not count: a wall particle with no other neighbours than
- * walls would make the system singular. Fluid that is all behind the plane of the face does not
- * count either: beyond an edge a wall would take the pressure of liquid before the other face. */
+/* Kernel sum over the fluid. Spray does not count: a wall particle whose other neighbours are all
+ * walls would make the system singular. Fluid that is completely behind the plane of the face does
+ * not count either: beyond an edge a wall would take the pressure of liquid in front of the other
+ * face. */
 MPS_ROW double fluid_sum(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -74,11 +75,11 @@ MPS_ROW double fluid_sum(const int dim, const mps_view *v, const fields *f, int6
     return before ? sum : 0;
 }
 
-/* Density of the fluid beside a wall particle: that of the nearest fluid particle, and of others
- * that are hardly farther away (W/r^2 more than NEARLY of that of the nearest, some 7 % in
- * distance). By the nearest alone the row would change from gas to water within a step where a wave
- * runs up the wall, and its pressure with it. Counting those farther away moves the pressures of a
- * still tank by 0.1 % of rho g h. */
+/* Density of the fluid beside a wall particle: that of the nearest fluid particle, and of others at
+ * nearly the same distance (W/r^2 more than NEARLY of that of the nearest, some 7 % in distance).
+ * With the nearest alone, the row and its pressure would change from gas to water within a step
+ * where a wave runs up the wall. Counting more distant ones changes the pressures of a still tank
+ * by 0.1 % of rho g h. */
 MPS_ROW double density_beside(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kernels of a device, from the loops of the library. scripts/device_rows compiles each file that has loops with this header before it, for NVPTX or for
- * SPIR: MPS_ROWS() and its like then define a kernel for 2-D and one for 3-D in place of the loop of the host. The rest of the file is compiled and
- * dropped. MPS_UNIT is the name of the file without its ending. */
+/* Kernels of a device, from the loops of the library. scripts/device_rows compiles each file with
+ * loops for NVPTX or SPIR and includes this header first: MPS_ROWS() and the other loop macros then
+ * define kernels for 2-D and 3-D instead of the loop of the host. The rest of the file is compiled
+ * and dropped. MPS_UNIT is the name of the file without its suffix. */
 #ifndef MPS_DEVICE_KERNELS_H
 #define MPS_DEVICE_KERNELS_H
 
@@ -10,7 +11,8 @@
 #include "loop.h"
 #include "threads.h"
 
-/* A kernel of arguments `given_`, a pointer to const. For NVPTX it takes them by value, apart from the memory of all, unless they are too large. */
+/* A kernel of arguments `given_`, a pointer to const. On NVPTX they are passed by value, in
+ * parameter memory, unless they are too large. */
 #ifdef __NVPTX__
 #define MPSK__GLOBAL      const __attribute__((address_space(1)))
 #define MPSK__LARGE(type) (sizeof(type) > MPS__LAUNCH_BY_VALUE)
@@ -29,7 +31,8 @@
 
 _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
 
-/* Whether nothing reads any more what a kernel would write. The address is compared as a number: for pointers NVPTX makes an address of 0 first. */
+/* Whether the results of a kernel are no longer needed. The address is compared as a number: for
+ * pointers NVPTX would create an address of 0 first. */
 #define MPSK__LEFT_OUT(given) \
     (mpsk__bits(&(given).unless) != 0 && *(MPSK__GLOBAL int64_t *)mpsk__bits(&(given).unless))
 static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *value)
@@ -39,11 +42,11 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     return bits;
 }
 
-/* Whether a loop of models leaves a row out: that of a particle of another rank. */
+/* Whether a loop of models skips a row: a particle of another rank. */
 #define MPSK__SKIPS(given, i) \
     (mpsk__bits(&(given).skip) != 0 && ((MPSK__GLOBAL uint8_t *)mpsk__bits(&(given).skip))[i])
 
-/* Both dimensions; `work` is what a row does, with dim_ and i_. */
+/* Both dimensions; `work` is the code of a row, with dim_ and i_. */
 #define MPSK__BOTH(name, work)                               \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_3), name, 3, work)
@@ -58,7 +61,8 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
         work                                        \
     }
 
-/* Values of a row into the terms. The loop has a constant end, so that the values stay in registers. */
+/* Store the values of a row in the terms. The loop bound is constant, so that the values stay in
+ * registers. */
 #define MPSK__STORE(most)                                                                \
     _Pragma("unroll") for (int k_ = 0; k_ < (most); k_++) if (k_ < given_->launch.count) \
         given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
@@ -74,8 +78,9 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
                row(dim_, &given_->view, &given_->fields, i_);)    \
     static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
 
-/* MPS_SUMS() does not say how many values a row has. A loop that stays one stores those that the compiler sees to be `first` still: code for each of
- * MPS_PARALLEL_VALUES would be most of a short kernel. */
+/* MPS_SUMS() does not state how many values a row has. A loop that is not unrolled stores those
+ * that the compiler knows to be `first` still: unrolled stores of all MPS_PARALLEL_VALUES would be
+ * most of a short kernel. */
 #define MPSK__STORE_SOME                                                             \
     const double first_ = given_->launch.first;                                      \
     const int64_t count_ = given_->launch.count;                                     \
@@ -146,7 +151,8 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     }                                                                                   \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
-/* What the host has of its own for a loop is for its vectors. scripts/device_rows finds itself which kernels do not look at the dimension. */
+/* The specialised loops of the host are for its vector units. scripts/device_rows itself finds the
+ * kernels that do not depend on the dimension. */
 #undef MPS__LOOP_ANY
 #define MPS__LOOP_ANY(name, row, type) MPS__LOOP(name, row, type)
 #undef MPS__LOOP_CHEAP

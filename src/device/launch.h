@@ -1,29 +1,34 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arguments of kernels, for an engine and for the kernels. Numbers are of 8 bytes, so that all compilers agree where they stand.
+/* Arguments of kernels, for engines and kernels. Numbers have 8 bytes, so that all compilers agree
+ * on the layout.
  *
- * A kernel of a loop gets mps__launch, then the view (loops of models alone), then the fields: one struct without gaps. Engines find it by the name of
- * the loop, and runs it in groups of MPS__LAUNCH_GROUP threads: that of "gas.c:shrink_rows" in 3-D is mpsk_gas__shrink_rows_3, or mpsk_gas__shrink_rows if it is the same for both dimensions. */
+ * A kernel of a loop gets mps__launch, then the view (loops of models only), then the fields: one
+ * struct without gaps. An engine finds it by the name of the loop and runs it in groups of
+ * MPS__LAUNCH_GROUP threads: the kernel of "gas.c:shrink_rows" in 3-D is mpsk_gas__shrink_rows_3,
+ * or mpsk_gas__shrink_rows if it is the same for both dimensions. */
 #ifndef MPS_DEVICE_LAUNCH_H
 #define MPS_DEVICE_LAUNCH_H
 
 #include <mps/exact.h>
 
-/* Kernels for NVIDIA take more bytes than these by address: that of a copy in the memory of the device. Those for OpenCL always do. */
+/* Kernels for NVIDIA take arguments of more bytes by the address of a copy in device memory.
+ * Kernels for OpenCL always do. */
 enum { MPS__LAUNCH_BY_VALUE = 4096 };
 
 typedef struct mps__launch {
     int64_t n;             /* rows; threads beyond do nothing */
-    int64_t count;         /* of values of a row: sums, then maxima */
-    double first;          /* what the values of MPS_SUMS() begin with */
+    int64_t count;         /* number of values of a row: sums, then maxima */
+    double first;          /* initial value of MPS_SUMS() */
     double *terms;         /* [count * n] out: value k of row i is terms[k * n + i] */
     const int64_t *unless; /* that of the launch */
-    const uint8_t *skip;   /* likewise */
+    const uint8_t *skip;   /* that of the launch */
 } mps__launch;
 
-/* Threads of a group. */
+/* Threads in a group. */
 enum { MPS__LAUNCH_GROUP = 128 };
 
-/* The terms of rows become sums (or maxima) in two launches: `parts` groups of threads join the terms of each value, then one group their results. */
+/* Terms of rows are reduced to sums or maxima in two launches: `parts` groups of threads reduce the
+ * terms of each value, then one group reduces their results. */
 
 typedef struct mps__launch_join {
     int64_t n;             /* terms of a value, or results of groups */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Hosts hand structs to kernels as bytes. These hold for the compilers of both, so both lay a struct out alike: none has bit-fields or long doubles. */
+/* Hosts pass structs to kernels as bytes. These assertions hold in both compilers, so that both use
+ * the same layout; no such struct has bit-fields or long doubles. */
 #ifndef MPS_DEVICE_LAYOUT_H
 #define MPS_DEVICE_LAYOUT_H
 

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kernels that join the terms of rows. Exact sums do not depend on how terms are grouped, so their bytes are those of the host. Group g of the launch
- * works on value g / parts, as one of `parts` groups; all groups have MPS__LAUNCH_GROUP threads. */
+/* Kernels that reduce the terms of rows. Exact sums do not depend on the grouping of terms, so that
+ * their bytes are those of the host. Group g of a launch works on value g / parts, as one of
+ * `parts` groups; all groups have MPS__LAUNCH_GROUP threads. */
 #include "kernels.h"
 #include <math.h>
 
 typedef struct place {
-    int64_t begin, step,
-        lane; /* the thread's first term, from one to the next; the thread in its group */
+    /* the thread's first term; stride; index of the thread in its group */
+    int64_t begin, step, lane;
 } place;
 
 static inline __attribute__((always_inline)) place place_of(const mps__launch_join *g)
@@ -17,7 +18,8 @@ static inline __attribute__((always_inline)) place place_of(const mps__launch_jo
                    .lane = lane};
 }
 
-/* Terms to join. None if the results are not read; no thread returns before the others, for compilers of OpenCL do not take waits under a condition. */
+/* Terms to reduce; none if the results are not needed. No thread returns early: OpenCL compilers do
+ * not accept barriers under a condition. */
 static inline __attribute__((always_inline)) int64_t count_of(const mps__launch_join *g)
 {
     return MPSK__LEFT_OUT(*g) ? 0 : g->n;
@@ -28,10 +30,10 @@ static inline int64_t value_of(const mps__launch_join *g)
     return mps__thread_group() / g->parts;
 }
 
-/* Distances to the other thread of a join, in rounds between which all wait. */
+/* Strides of a tree reduction; all threads wait between the rounds. */
 #define HALVES MPS__ROLLED for (int64_t half = MPS__LAUNCH_GROUP / 2; half > 0; half /= 2)
 
-/* The sums of the threads of a group become one; the first thread stores it. */
+/* Reduces the sums of the threads of a group to one; the first thread stores it. */
 #define JOIN_GROUP(shared, own, out)                        \
     shared[at.lane] = own;                                  \
     HALVES                                                  \
@@ -69,7 +71,7 @@ MPSK__KERNEL(mpsk_sums__join, mps__launch_join)
     JOIN_GROUP(joined, own, given_->out)
 }
 
-/* Maxima of terms; the same kernel joins the results of groups. A NaN does not count. */
+/* Maxima of terms; the same kernel reduces the results of groups. A NaN does not count. */
 MPS__SHARED(double, raised, MPS__LAUNCH_GROUP, mpsk_sums__raise);
 MPSK__KERNEL(mpsk_sums__raise, mps__launch_join)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Threads of a device: which one this is, and how those of a group wait for each other. For NVPTX, and for SPIR by the names of OpenCL. */
+/* Threads of a device: index of a thread and barriers within a group. For NVPTX, and for SPIR with
+ * the names of OpenCL. */
 #ifndef MPS_DEVICE_THREADS_H
 #define MPS_DEVICE_THREADS_H
 
@@ -7,7 +8,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Memory that a group of threads shares. OpenCL wants the name of its kernel in front. */
+/* Memory shared by a group of threads. OpenCL needs the name of its kernel as prefix. */
 #define MPS__SHARED(type, name, count, kernel)                     \
     static __attribute__((address_space(3), loader_uninitialized)) \
     type name[count] __asm__(#kernel "." #name)
@@ -55,7 +56,7 @@ static inline int64_t mps__thread_row(void)
 
 static inline __attribute__((always_inline)) void mps__thread_wait(void)
 {
-    mps__cl_barrier(3); /* of shared memory and of all */
+    mps__cl_barrier(3); /* of shared and global memory */
 }
 #endif
 

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Collisions, W22 (24)(25), W22: Wen, Zhao & Wan 2022. Two fluid particles that are nearer than
- * `distance` and approach each other exchange momentum along their line. A fluid particle nearer
- * than `wall_distance` to a wall loses the normal part of its approach. All pairs use the
- * velocities before the collisions, so that the order of particles does not matter. The momentum
- * of pairs is conserved. */
+ * `distance` and approach each other exchange momentum along their line of centres. A fluid
+ * particle nearer than `wall_distance` to a wall loses the normal part of its approach velocity.
+ * All pairs use the velocities before the collisions, so that results do not depend on the order of
+ * particles. Pairs conserve momentum. */
 #include "walls.h"
 #include <mps/reaction.h>
 
@@ -26,11 +26,11 @@ typedef struct fields {
     double *velocity;
     const double *density;
     double *change; /* [n*dim] of the velocity */
-    double *walls;  /* [n*dim] the part of it by walls, over dt */
+    double *walls;  /* [n*dim] the part due to walls, over dt */
     double least;   /* least_weight() */
 } fields;
 
-/* W/r^2 of pairs nearer than `distance` is larger than this. Most pairs are skipped by it before
+/* W/r^2 of pairs nearer than `distance` is larger than this value. It excludes most pairs before
  * their distance is computed. */
 static double least_weight(const mps_stencil *t, double distance)
 {
@@ -38,7 +38,7 @@ static double least_weight(const mps_stencil *t, double distance)
     return (mps_kernel_weight(&t->kernel, distance, t->re) - 1e-9) / (distance * distance);
 }
 
-/* Change of the velocity of i by its fluid neighbours. Returns whether it has solid ones too. */
+/* Change of the velocity of i by its fluid neighbours. Returns whether it has solid neighbours. */
 MPS_ROW bool collide_pairs(const int dim, const mps_view *view, const fields *f, int64_t i,
                            double du[3])
 {

@@ -1,23 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance of each particle from an interface between two densities. Pairs across the interface
- * take from it the density that fluid at rest needs,
+/* Distance of each particle from an interface between two densities. It determines the density of
+ * pairs across the interface such that fluid at rest stays at rest,
  *   rho_ij = (f_i rho_i + f_j rho_j)/(f_i + f_j),  f_i, f_j the distances,
  * the mean along the line between both (mps_pair_density()). With (rho_i + rho_j)/2 the pairs of a
- * particle agree on a pressure only if the interface halves each of them; elsewhere fluid at rest
- * is stirred.
- *
- * Near a particle the interface is a plane. Its normal is the mean direction of the pairs across
- * the interface, from heavy to light; it passes through the mean of their middles. Both means cover
- * the far radius less half a spacing, so that the lattice does not show. They lie about the
- * particle, or with `foot` about the foot of its perpendicular on the plane. About the particle the
- * two sides of the interface weigh the same pairs differently, so that their planes do not agree:
- * the densities of pairs then belong to no level, and stir fluid at rest. About the foot all
- * particles over one place see one plane.
- *  - A particle beyond the plane of its own side: its distance is `least`.
- *  - Pairs in all directions (drops and threads of a few particles, |sum r_ij|/sum |r_ij| below
- *    `flat`): all distances are half a spacing, which gives (rho_i + rho_j)/2, W22 (17).
- *  - A solid particle takes the density of the side of the plane on which it is.
- * W22: Wen, Zhao & Wan 2022. */
+ * particle give the same pressure only if the interface is half-way along each of them; otherwise
+ * fluid at rest is set in motion. W22: Wen, Zhao & Wan 2022. */
 #include "helpers.h"
 
 enum { LEAST, FLAT, FOOT, SETTINGS };
@@ -29,10 +16,12 @@ static const mps_setting settings[SETTINGS] = {
     [FOOT] = {"foot", "-", "1: the plane is a mean about its point nearest to the particle",
               MPS_TYPE_FLAG, 0.0, 0.0, 1.0}};
 
-/* Planes that are found about the foot, each with that of the one before. */
+/* Number of times the plane is determined at the foot, each time at the foot on the previous
+ * plane. */
 static const int FEET = 2;
 
-/* Width of the range above `flat` in which the plane takes over from half a spacing. */
+/* Width of the range above `flat` in which the distance changes from half a spacing to that of the
+ * plane. */
 static const double BLEND = 0.2;
 
 static const mps_channel channels[] = {
@@ -63,9 +52,9 @@ typedef struct fields {
 typedef struct crossing {
     double centre[3];          /* of the window, less x_i */
     double weight;             /* sum of the weights */
-    double middle[3];          /* of the middles of the pairs, less x_i */
-    double toward[3], length;  /* of the vectors to the lighter particle, and of their lengths */
-    double heaviest, lightest; /* densities met */
+    double middle[3];          /* of the midpoints of the pairs, less x_i */
+    double toward[3], length;  /* of the vectors to the lighter particle; of their lengths */
+    double heaviest, lightest; /* largest and smallest density */
 } crossing;
 
 static inline bool in_fluid(const mps_view *v, const fields *f, int64_t i)
@@ -73,7 +62,7 @@ static inline bool in_fluid(const mps_view *v, const fields *f, int64_t i)
     return mps_is_fluid(v, i) && mps_region_of(f->region, i) < MPS_REGION_SPRAY;
 }
 
-/* Finds fluid with lighter fluid among its near neighbours. */
+/* Marks fluid with lighter fluid among its near neighbours. */
 MPS_ROW void find_heavy(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;
@@ -87,7 +76,7 @@ MPS_ROW void find_heavy(const int dim, const mps_view *v, const fields *f, int64
 }
 MPS_ROWS(find_heavy_rows, find_heavy, fields)
 
-/* True if a near pair of particle i has two densities. */
+/* True if particle i has a near neighbour of another density. */
 MPS_ROW bool at_interface(const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -128,7 +117,7 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
     }
 }
 
-/* All pairs of the window. */
+/* Sums over all pairs in the window. */
 MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i, crossing *c)
 {
     static const double here[3] = {0};
@@ -141,10 +130,10 @@ MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i
     }
 }
 
-/* A plane, from its sums. */
+/* A plane from the sums. */
 typedef struct plane {
     double normal[3]; /* toward the lighter side */
-    double height;    /* from i to the plane */
+    double height;    /* of i above the plane */
     double aligned;   /* |sum r_ij|/sum |r_ij|; 0: no plane */
 } plane;
 
@@ -164,7 +153,19 @@ MPS_ROW plane plane_of(const int dim, const crossing *c)
     return o;
 }
 
-/* Distance of i from the interface; changes *rho, its "pressure_density", if i is solid. */
+/* Distance of i from the interface. Sets *rho, its "pressure_density", if i is solid.
+ *
+ * Near a particle the interface is a plane. Its normal is the mean direction of the pairs across
+ * the interface, from heavy to light; it passes through the mean of their midpoints. Both means
+ * cover the far radius less half a spacing, so that they do not depend on the lattice. Their window
+ * is centred at the particle, or with `foot` at the foot of its perpendicular on the plane. Centred
+ * at the particle, the two sides of the interface weight the same pairs differently and get
+ * different planes: the densities of pairs then belong to no single plane and set fluid at rest in
+ * motion. Centred at the foot, all particles above one point get one plane.
+ *  - A particle on the wrong side of its plane has the distance `least`.
+ *  - Pairs in all directions (droplets and threads of a few particles, |sum r_ij|/sum |r_ij| below
+ *    `flat`): all distances are half a spacing, which gives (rho_i + rho_j)/2, W22 (17).
+ *  - A solid particle takes the density of the side of the plane on which it is. */
 MPS_ROW double distance_of(const int dim, const mps_view *v, const fields *f, int64_t i,
                            double *rho)
 {

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Density smoothing, W22 (13), W22: Wen, Zhao & Wan 2022:
  *   rho_i = (rho_i W_self + sum rho_j W)/(W_self + sum W)  over the fluid within the near radius.
- * It changes fluid that has another density within that radius: a band two radii wide at an
- * interface. W22 does not give W_self. Here it is `self` times W(0): the larger `self`, the weaker
- * the smoothing. Only "pressure_density" changes: a particle keeps the mass of its phase. */
+ * It changes fluid with another density within that radius: a band two radii wide at an interface.
+ * W22 does not give W_self. Here it is `self` times W(0): the larger `self`, the weaker the
+ * smoothing. Only "pressure_density" changes: a particle keeps the mass of its phase. */
 #include "helpers.h"
 
 enum { SELF, SETTINGS };
@@ -21,7 +21,7 @@ typedef struct fields {
     double self; /* W_self */
 } fields;
 
-/* Sums are of the differences, so that a density without other densities near it keeps its bits. */
+/* Sums of differences keep the bits of a density without other densities near it. */
 MPS_ROW void smooth(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     if (!mps_is_fluid(v, i)) return;
@@ -40,7 +40,8 @@ MPS_ROWS(smooth_rows, smooth, fields)
 
 static int smooth_densities(mps_stage *s)
 {
-    const mps_kernel *kernel = &s->view->near.kernel; /* only "improved" is surely finite at 0 */
+    /* only "improved" is certain to be finite at 0 */
+    const mps_kernel *kernel = &s->view->near.kernel;
     const double r = kernel->id == MPS_KERNEL_IMPROVED ? 0.0 : 0.5 * s->view->dp;
     fields f = {.density = s->data[DENSITY],
                 .smoothed = s->data[SMOOTHED],

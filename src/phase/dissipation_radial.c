@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Artificial dissipation: damps pairs of fluid particles along their line,
+/* Artificial dissipation: damps pairs of fluid particles along their line of centres,
  *   a_i = 2(D+2)/n0 sum (alpha l U_g + beta l max(0, -u_n)) w u_n/r r_ij,
  * l the spacing, U_g the mps_view.velocity_scale, u_n the rate of separation, w = W/r^2. The force
- * of a pair conserves momentum. alpha calms the lattice; beta takes the energy of violent impacts.
- * On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of the fluid
- * calms the lattice too. So `viscous` D nu (mean of the pair) is subtracted from alpha l U_g, down
- * to 0: both together are the larger of the two, and a viscous liquid keeps its own viscosity. */
+ * of a pair conserves momentum. alpha reduces lattice noise; beta dissipates the energy of violent
+ * impacts. On a shear flow alpha acts as a kinematic viscosity alpha l U_g/D. The viscosity nu of
+ * the fluid reduces this noise too. So `viscous` D nu (mean of the pair) is subtracted from alpha l
+ * U_g, down to 0: the total is the larger of the two, and a viscous liquid keeps its own
+ * viscosity. */
 #include "helpers.h"
 
 enum { PAIRS = MPS_PAIRS(32) };
@@ -25,10 +26,10 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
 typedef struct fields {
     const double *velocity, *density;
     double *acceleration;
-    double half[MPS_PHASES]; /* half of what a phase adds to alpha U_g of a pair [m/s] */
+    double half[MPS_PHASES]; /* half of the contribution of a phase to alpha U_g of a pair [m/s] */
 } fields;
 
-/* Fluid neighbours of a particle, array by array: roots and divisions run several at a time. */
+/* Fluid neighbours of a particle as arrays: vectorises roots and divisions. */
 typedef struct block {
     int count;
     double d[3][PAIRS], r2[PAIRS], rate[PAIRS], w_r2[PAIRS], rho[PAIRS]; /* rate: u_n r */
@@ -65,7 +66,8 @@ MPS_ROW void damp(const int dim, const mps_view *v, const fields *f, int64_t i)
     const mps_stencil *t = &v->near;
     const double c = 2.0 * (dim + 2) / t->n0, own = f->half[v->phase[i]], rho = f->density[i];
     const double beta = v->setting[BETA], dp = v->dp;
-    /* a larger viscosity would reverse velocities within a step; the limit falls below r = dp */
+    /* a larger viscosity would reverse velocities within a step; the limit decreases below
+     * r = dp */
     const double most = 0.15 * dp / v->dt, most_near = most / (dp * dp * dp);
     double sum[3] = {0}, share[PAIRS];
     block b;

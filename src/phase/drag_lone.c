@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drag of a dense fluid on single particles of a lighter fluid: gas among drops, or gas between
- * water and a wall. If less of its own phase is about a particle than about one in a row of
- * particles (`company` n0), it is smaller than the operators resolve, and the pressures of the
- * water throw it about.
- * Let v be its velocity relative to the mean velocity of the denser fluid about it. The part of v
- * above `times` U is removed, times its lone share max(0, 1 - c_i/company), c_i = sum W/n0 over its
+/* Drag of a dense fluid on single particles of a lighter fluid: gas among droplets, or gas between
+ * water and a wall. If a particle has less of its own phase around it than a particle in a line of
+ * particles (`company` n0), it is too small for the operators to resolve, and the pressures of the
+ * water accelerate it irregularly.
+ *
+ * Let v be its velocity relative to the mean velocity of the denser fluid around it. The part of v
+ * above `times` U is removed, times its isolation max(0, 1 - c_i/company), c_i = sum W/n0 over its
  * own phase. U is the largest velocity, relative to the same mean, of the denser fluid and of the
- * walls about it, and at least U_g (mps_view.velocity_scale).
+ * walls around it, and at least U_g (mps_view.velocity_scale).
+ *
  * Pairs with the denser fluid exchange the momentum. Their weights are such that no particle loses
- * more than its relative velocity: momentum is conserved and kinetic energy falls (it is booked
- * with the collisions). */
+ * more than its relative velocity: momentum is conserved and kinetic energy decreases (it is
+ * counted with the collisions). */
 #include "helpers.h"
 
 enum { COMPANY, TIMES, SETTINGS };
@@ -41,7 +43,7 @@ static inline bool apart(const mps_view *v, const double *rho, int64_t i, int64_
     return mps_is_fluid(v, j) && rho[j] != rho[i];
 }
 
-/* Sum of W m_j/(m_i + m_j) over the fluid of other densities about i. */
+/* Sum of W m_j/(m_i + m_j) over the fluid of other densities around i. */
 MPS_ROW double weigh(const int dim, const mps_view *v, const double *rho, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -54,7 +56,7 @@ MPS_ROW double weigh(const int dim, const mps_view *v, const double *rho, int64_
     return sum;
 }
 
-/* Lone share of i. mean: out, mean velocity of the denser fluid about it. */
+/* Isolation of i. mean: out, mean velocity of the denser fluid around it. */
 MPS_ROW double look_round(const int dim, const mps_view *v, const fields *f, int64_t i,
                           double mean[3])
 {
@@ -75,7 +77,7 @@ MPS_ROW double look_round(const int dim, const mps_view *v, const fields *f, int
     return dense > 0 ? mps_larger(0.0, 1.0 - own / (v->setting[COMPANY] * t->n0)) : 0.0;
 }
 
-/* Share of the velocity of i relative to the denser fluid that i loses. */
+/* Fraction of its velocity relative to the denser fluid that i loses. */
 MPS_ROW double excess(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction at walls: the velocity of a dummy as the fluid before the wall sees it, such that the
+/* Friction at walls: the velocity of a dummy as used for fluid in front of the wall, such that the
  * velocity relative to the tank is 0 on the face of the wall (no slip). With the dummies' own
  * velocity a linear profile is 0 at 0.2 dp behind the face (far radius 3.1 dp). */
 #ifndef MPS_PHASE_FRICTION_H
@@ -7,14 +7,14 @@
 
 #include "helpers.h"
 
-/* Distance from the face [dp] below which the mirror acts less and less on a particle: there the
- * wall particles themselves hold it. */
+/* Distance from the face [dp] below which the mirror velocity of a particle is reduced: there the
+ * wall particles themselves give the no-slip condition. */
 static const double mps__mirror_near = 0.5;
 
-/* Velocity of dummy j less that of fluid particle i. The dummy takes the opposite of i's velocity
+/* Velocity of dummy j less that of fluid particle i. The dummy has the opposite of i's velocity
  * relative to the tank, times the ratio of their distances from the face of j's wall. The tank's
  * velocity at i is extrapolated from wall and dummy, so that rigid rotation with the tank is no
- * shear. Its spin about the normal is left out: it cancels over the dummies about i.
+ * shear. Its rotation about the normal is omitted: it cancels over the dummies around i.
  * velocity: [n*dim] the channel. */
 MPS_ROW void mps__mirror_velocity(const int dim, const mps_view *view, const double *velocity,
                                   int64_t i, int64_t j, double du[3])
@@ -24,7 +24,8 @@ MPS_ROW void mps__mirror_velocity(const int dim, const mps_view *view, const dou
     for (int d = 0; d < dim; d++) du[d] = v[d] - u[d];
     if (w < 0) return;
     double size = 0, above = 0, below = 0, apart = 0, turn = 0, ahead = 0;
-    double r[3], h[3], dv[3]; /* from the wall: dummy, fluid; dummy's velocity less the wall's */
+    /* relative to the wall: dummy, fluid; dummy's velocity less the wall's */
+    double r[3], h[3], dv[3];
     for (int d = 0; d < dim; d++) {
         const double area = view->area[w * dim + d];
         r[d] = view->x[j * dim + d] - view->x[w * dim + d];

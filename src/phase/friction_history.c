@@ -1,19 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Friction at the two side walls of a thin tank that is computed in 2-D, with the history of the
- * layers at them (layers.h). A particle has the mean velocity across the width b. It carries the
- * velocities q_k that the modes of its layers have reached, 0 at first: layers grow from now on.
- * There is no frequency to choose.
+ * boundary layers (layers.h). A particle has the mean velocity across the width b. It carries the
+ * velocities q_k of the modes of its layers, initially 0: layers grow from then on. No frequency
+ * has to be chosen.
  *
- * In a step the relative velocity u changes by du. Friction with the u and q_k of the beginning
- * stands in MPS_FORCE, so that pressures know it. The other forces have to move what the layers
- * add to the mass too: after all other verbs of MPS_VELOCITY their share of du is divided by 1 +
- * added. This keeps a flow without divergence so. Then the q_k follow.
+ * In a step the relative velocity u changes by du. Friction with the initial u and q_k is part of
+ * MPS_FORCE, so that the pressures include it. The other forces also accelerate the added mass of
+ * the layers: after all other verbs of MPS_VELOCITY their part of du is divided by 1 + added. This
+ * keeps a divergence-free flow divergence-free. Then the q_k are updated.
  *
- * The tank turns: with the velocity relative to it, q_k feels the Coriolis acceleration. Seen from
- * the lab q_k turns by the angle of the tank, the other way.
+ * The tank rotates: with the velocity relative to it, q_k has a Coriolis acceleration. In the lab
+ * frame q_k rotates by the angle of the tank, in the opposite sense.
  *
  * Forces on the side walls are those of the part "sides". Both parts of the friction are in the
- * line `friction` of the budget; the kinetic energy of the profile is in `layers`. */
+ * term `friction` of the energy budget; the kinetic energy of the profile is in `layers`. */
 #include "helpers.h"
 #include "layers.h"
 #include <mps/reaction.h>
@@ -24,7 +24,7 @@ static const mps_setting settings[SETTINGS] = {
 
 static const char *const parts[] = {"sides"};
 
-/* Modes in a channel; a direction has two channels. */
+/* Modes in a channel; each direction has two channels. */
 enum { HALF = MPS__LAYERS / 2, LAYERS = 4 };
 
 #define LAYER(axis, which, of)                                                    \
@@ -75,8 +75,8 @@ typedef struct fields {
     const double *density, *tank;
     double *velocity, *acceleration, *start;
     double *layer[LAYERS];
-    double *friction;           /* [n*2] what this model adds to the acceleration */
-    double cosine, sine;        /* of the angle of the tank in this step */
+    double *friction;           /* [n*2] contribution of this model to the acceleration */
+    double cosine, sine;        /* of the rotation of the tank in this step */
     mps__layers of[MPS_PHASES]; /* of phases */
 } fields;
 
@@ -104,7 +104,7 @@ static int begin(mps_stage *s, fields *f)
     return 0;
 }
 
-/* Kinetic energy of the profile beside that of its mean. */
+/* Kinetic energy of the profile in excess of that of its mean. */
 MPS_ROW void add_kinetic(const int dim, const mps_view *v, const fields *f, int64_t i, double *sum)
 {
     (void)dim;
@@ -127,7 +127,8 @@ static int report_kinetic(mps_stage *s, const fields *f)
     return mps_stage_kinetic(s, kinetic);
 }
 
-/* Relative velocity at the beginning of the step, so the tank's is that of the step before. */
+/* Relative velocity at the beginning of the step; the tank's velocity is that of the previous
+ * step. */
 MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     (void)dim;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the models of a compressible phase share. */
+/* Common functions of the models of a compressible phase. */
 #include "helpers.h"
 
 typedef struct speeds {
@@ -7,7 +7,7 @@ typedef struct speeds {
     double phase;
 } speeds;
 
-/* The maximum over the gas of |u|^2, relative to the tank. */
+/* Maximum of |u|^2 over the gas, relative to the tank. */
 MPS_ROW void raise_speed(const int dim, const mps_view *v, const speeds *f, int64_t i, double *most)
 {
     if (!mps__is_gas(v, i, f->phase)) return;
@@ -46,7 +46,7 @@ typedef struct volumes {
     double *volume_deviation, *number_density;
 } volumes;
 
-/* (n - n0)/n0 of the particle becomes the share by which its volume is smaller. */
+/* (n - n0)/n0 of the particle becomes the relative reduction of its volume. */
 MPS_ROW void shrink(const int dim, const mps_view *v, const volumes *f, int64_t i)
 {
     (void)dim, (void)v;
@@ -65,8 +65,8 @@ MPS_ROW void subtract(const int dim, const mps_view *v, const volumes *f, int64_
 }
 MPS_ROWS(subtract_rows, subtract, volumes)
 
-/* Each particle counts with its volume by the equation of state, 1/(1 + denser), in the sums about
- * its neighbours too: walls and liquid beside a compressed gas keep their own. */
+/* Each particle counts with its volume by the equation of state, 1/(1 + denser), also in the sums
+ * over its neighbours: walls and liquid beside a compressed gas keep their own. */
 int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density)
 {
     volumes f = {denser, mps_stage_scratch(s, s->view->n), volume_deviation, number_density};
@@ -79,8 +79,8 @@ int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, doub
     return 0;
 }
 
-/* Share of the cell of a wall particle that holds gas: the part of the cell that the wall particle
- * stands for, times the share of gas in the fluid beside it. */
+/* Gas fraction in the cell of a wall particle: the fraction of the cell that the wall particle
+ * represents, times the gas fraction of the fluid beside it. */
 MPS_ROW double wall_share(const int dim, const mps_view *v, const int32_t *region, int64_t i,
                           double phase)
 {
@@ -106,7 +106,7 @@ double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, doubl
     return v->dim == 2 ? wall_share(2, v, region, i, phase) : wall_share(3, v, region, i, phase);
 }
 
-/* What mps__gas_conserve() subtracts: from the gas, from each row. */
+/* Amounts that mps__gas_conserve() subtracts: from the gas, from each row. */
 typedef struct balance {
     mps__gas_rows rows;
     double gas, part;
@@ -121,17 +121,18 @@ MPS_ROW void subtract_balance(const int dim, const mps_view *v, const balance *f
 MPS_ROWS(subtract_balance_rows, subtract_balance, balance)
 
 /* The tank is rigid and the liquid keeps its volume, so the gas must keep its volume. But the sum
- * of the divergences over all rows is not exactly 0, and a gas integrates the rest: a mean error of
- * 0.1 1/s is 14 kPa a second in air.
- *  - A small rest, as in calm tanks: all rows share it. Taken from the gas alone it would press
- *    0.2 % of rho g h into the liquid.
- *  - What is larger, as a single row asks for in an impact: taken from the gas alone. As a source
- *    in the whole liquid it would be a pressure of many kPa for a step. */
+ * of the divergences over all rows is not exactly 0, and a gas integrates the residual: a mean
+ * error of 0.1 1/s is 14 kPa a second in air.
+ *  - A small residual, as in calm tanks, is subtracted from all rows. Subtracted from the gas alone
+ *    it would add 0.2 % of rho g h to the pressure of the liquid.
+ *  - A larger residual, as from a single row in an impact, is subtracted from the gas alone. As a
+ *    source in the whole liquid it would give a pressure of many kPa for a step. */
 void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, const double *sums)
 {
     const mps_view *v = s->view;
-    static const double share = 0.1;   /* of the surplus that a step removes */
-    static const double small = 0.005; /* bound of the shared rest, in g/dp */
+    static const double share = 0.1; /* fraction of the surplus that a step removes */
+    /* limit of the residual subtracted from all rows, in g/dp */
+    static const double small = 0.005;
     const double bound = small * v->velocity_scale * v->velocity_scale / (v->dp * v->dp);
     const double all = sums[MPS__GAS_SOURCES], count = sums[MPS__GAS_ROWS];
     if (sums[MPS__GAS_FIXED] > 0 || sums[MPS__GAS_OWN] == 0) return;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressibility of one phase by its speed of sound Cs: d rho = dp/Cs^2. The pressure equation,
- * divided by rho, gets the change of a step on its left side,
+/* Compressibility of one phase by its speed of sound Cs: d rho = dp/Cs^2. The left side of the
+ * pressure equation, divided by rho, gets the change in a step,
  *   (p^{k+1} - p^k)/(rho Cs^2 dt^2).
  * In "volume_deviation" and "number_density" each gas particle counts with its volume by the
- * equation of state p = rho Cs^2 (n - n0)/n0 at p^k. So sources that correct the density see its
- * deviation from the equation of state, and at rest the pressure is that of the equation of state,
- * for any weight or relaxation time of the source.
- * Walls are compressible too, as far as the part of a cell that they stand for holds gas.
+ * equation of state p = rho Cs^2 (n - n0)/n0 at p^k. So sources that correct the density use its
+ * deviation from the equation of state, and at rest the pressure is that of the equation of state
+ * for any weight or relaxation time of the source. Walls are compressible too, by the gas fraction
+ * of the part of the cell that they represent.
  *   conserve: a gas in a closed tank keeps its volume, so that its mean pressure does not drift;
- *     pressures are then relative to the filling. Switch it off if sources change the volume.
- *   printed: p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) to the letter. The old pressure is lost, and
- *     the gas is compressed without end: at rest the source holds p = gamma rho Cs^2 (n - n0)/n0,
+ *     pressures are then relative to the filled state. Disable it if sources change the volume.
+ *   printed: p^{k+1}/(rho Cs^2 dt^2) alone, W22 (26) literally. The old pressure is lost, and
+ *     the gas is compressed without limit: at rest the source holds p = gamma rho Cs^2 (n - n0)/n0,
  *     a gas 1/gamma times as soft.
  * W22: Wen, Zhao & Wan 2022. */
 #include "helpers.h"
@@ -46,7 +46,7 @@ static const mps_use uses[USES] = {
     [REGION] = {"region", MPS_USE_NEIGHBOURS},   [CONDITION] = {"pressure_condition", MPS_USE_READ},
     [GAS_SHIFT] = {"gas_shift", MPS_USE_CHANGE}, [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
 
-/* Smallest (n - n0)/n0: at -1 the linear law would leave no gas. */
+/* Smallest (n - n0)/n0: at -1 the linear law would have no gas left. */
 static const double LEAST = -0.9;
 
 typedef struct fields {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Isentropic gas, compressed without exchange of heat: rho = rho0 (1 + p/P)^(1/e), P the pressure
- * of the ambient air, rho0 the density of the phase, e the exponent (1.4 for air; 1: isothermal).
- * The pressure equation, divided by rho, gets the change of ln rho on its left side,
+/* Isentropic gas (no heat exchange): rho = rho0 (1 + p/P)^(1/e), P the pressure of the ambient air,
+ * rho0 the density of the phase, e the exponent (1.4 for air; 1: isothermal). The left side of the
+ * pressure equation, divided by rho, gets the change of ln rho,
  *   [ln(1 + p^{k+1}/P) - ln(1 + p^k/P)]/(e dt^2).
- * This is nonlinear: the solver must handle it (sundials.kinsol). Sources that correct the density
- * see its deviation from the law. `conserve` as in gas.compressible. */
+ * It is nonlinear and needs a suitable solver (sundials.kinsol). Sources that correct the density
+ * use its deviation from the law. `conserve`: see gas.compressible. */
 #include "helpers.h"
 
 #include <mps/ppe.h>

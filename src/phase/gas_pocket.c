@@ -1,25 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Trapped gas: voids that liquid encloses carry the pressure of the gas in them,
+/* Trapped gas: a void enclosed by liquid has the pressure of the gas in it,
  *
  *   p = P [(V0/V)^e - 1],   dV/dt = integral of u.n over the surface of the liquid,
  *
  * P the ambient pressure, V0 the volume of the gas at that pressure, u relative to the tank. Voids
- * are the components of mps_stage_voids(). What a pocket keeps when it splits, joins or opens:
+ * are the components of mps_stage_voids(). Splitting, merging and opening of pockets:
  * gas_pocket_follow.c. Volumes, films and faces: gas_pocket_faces.c.
  *
- * Volume. The sum over faces of a raster is exact for neither volume nor flux. The flux is the
- * better one over the time of an impact, the volume over longer times: V relaxes to it over
- * 20 dp/U_g, as the volume deviation of the liquid does. Both agree where the surface only moves,
- * so a static compression remains.
- *
- * Pressures. Particles on the surface are rows with the pressure of the gas before them, those
- * without a face of their own have the mean of their neighbours. Walls in a pocket have its
- * pressure, and the least pressure of walls beside it is higher by that. In a film of one row the
- * moment matrix M has no inverse along the normal: what B M leaves out of the gradient G is added,
- * a_i -= (1 - B M)(G/rho - b), b = g - a_tank as in mps/flux.h.
- *
- * Steps. The inertia of a pocket is at least that of one row of its surface, so its own frequency
- * is at most omega^2 = e (P + p) S/(V rho dp), S its surface; dt <= 1/omega. */
+ * Pressures. Surface particles are rows with the pressure of the gas in front of them; a particle
+ * without own face has the mean of its neighbours. Walls in a pocket have its pressure, which also
+ * increases the lower bound of walls beside it. In a film of one layer the moment matrix M has no
+ * inverse along the normal: the part of the gradient G that B M lacks is added, a_i -= (1 - B
+ * M)(G/rho - b), b = g - a_tank as in mps/flux.h. */
 #include "gas_pocket.h"
 
 static const mps_setting settings[] = {
@@ -56,12 +48,12 @@ static const mps_channel channels[] = {
      .life = MPS_LIFE_PARTICLE}};
 enum { CHANNELS = sizeof channels / sizeof *channels };
 
-/* Time over which volumes relax, in dp/U_g. */
+/* Relaxation time of volumes, in dp/U_g. */
 static const double RELAXATION = 20;
 
 /* ---- steps ---- */
 
-/* Whether there is no pocket: pressures and slopes of the step are 0 then. */
+/* Whether there is no pocket: pressures and slopes of the step are then 0. */
 static bool is_idle(const mps_stage *s)
 {
     const mps__pocket_old old = mps__pocket_read(s);
@@ -86,7 +78,7 @@ static const mps_use find_uses[FIND_USES] = {[FIND_VELOCITY] = {"velocity", MPS_
                                              [FIND_SLOPE] = {"pocket_slope", MPS_USE_WRITE},
                                              [FIND_NUMBER] = {"pocket", MPS_USE_CHANGE}};
 
-/* Gas of the ambient of a closed tank: amount, volume. */
+/* Ambient gas of a closed tank: amount, volume. */
 static void sum_ullage(const double *setting, const mps__pocket *pocket, int32_t count, double *gas,
                        double *volume)
 {
@@ -104,7 +96,10 @@ static double ambient_pressure(const double *setting, const mps__pocket *pocket,
     return gas != volume ? mps__pocket_pressure(setting, gas, volume) : 0;
 }
 
-/* Pressures and frequencies of the pockets. pressure: [count] out, by component */
+/* Pressures and frequencies of the pockets. pressure: [count] out, by component
+ *
+ * Steps. The inertia of a pocket is at least that of one layer of its surface, so that its natural
+ * frequency is at most omega^2 = e (P + p) S/(V rho dp), S its surface; dt <= 1/omega. */
 static void find_pressures(mps_stage *s, const mps__pocket_faces *f, const mps__pocket_now *now,
                            mps__pocket_head *head, double *pressure)
 {
@@ -127,7 +122,7 @@ static void find_pressures(mps_stage *s, const mps__pocket_faces *f, const mps__
     head->ambient = pressure[now->open] = ambient_pressure(k, now->pocket, v->count);
 }
 
-/* The gas of the present components, and their volumes. */
+/* Gas of the components of this step, and their volumes. */
 static int follow(mps_stage *s, const mps__pocket_faces *f, mps__pocket_now *now, double *geometry,
                   mps__pocket_head *head)
 {
@@ -211,7 +206,7 @@ typedef struct fields {
     double *value, *acceleration, *wall_pressure;
 } fields;
 
-/* Mean over the neighbours on the surface that gas is before. */
+/* Mean over the neighbours on the surface with gas in front of them. */
 MPS_ROW double beside(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -227,8 +222,8 @@ MPS_ROW double beside(const int dim, const mps_view *v, const fields *f, int64_t
     return weight > 0 ? sum / weight : 0;
 }
 
-/* Least pressure that a film beside a wall has at its place: that of the particles of its surface,
- * along the gradient of the film. */
+/* Lower bound of the pressure of a film beside a wall at the wall: that of its surface particles,
+ * extrapolated with the gradient of the film. */
 MPS_ROW double film_pressure(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const mps_stencil *t = &v->near;
@@ -364,9 +359,14 @@ static const mps_use book_uses[BOOK_USES] = {
     [BOOK_REGION] = {"region", MPS_USE_NEIGHBOURS},
     [BOOK_CORRECTION] = {"correction", MPS_USE_NEIGHBOURS}};
 
-/* New volumes by the flux. Works of all forces add up to the kinetic energy if each is that with the
- * mean of the velocities before and after the step. So that of the gas is p dt with the mean of the
- * fluxes, and what liquid gains is what the gas has lost. */
+/* New volumes by the flux. The works of all forces add up to the change of kinetic energy if each
+ * uses the mean of the velocities before and after the step. So the work of the gas is p dt times
+ * the mean of the fluxes, and the liquid gains what the gas loses.
+ *
+ * Volume. The sum over faces of a raster is exact neither for volume nor for flux. The flux is more
+ * accurate over the time of an impact, the volume over longer times: V relaxes to the latter over
+ * 20 dp/U_g, as the volume deviation of the liquid does. Both agree where the surface only moves,
+ * so that a static compression is kept. */
 static int add_fluxes(mps_stage *s, mps__pocket_head *head, mps__pocket *pocket)
 {
     mps__pocket_faces f = {0};

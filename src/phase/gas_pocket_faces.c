@@ -1,33 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Faces of pockets of gas: their volume, its rate, and the pressures that the liquid behind them
- * gets. e: direction of a face, out of the void; A: its area; i: the particle behind it.
- *
- * Volume. A row of particles stands dp/2 behind the surface of the liquid:
- *
- *   V = cells + sum_f A e.(x_i - x_f) - dp/2 S,   S = sum_i |sum_f of i A e|.
- *
- * The first two terms do not change where a cell changes between void and liquid at a flat surface,
- * and their rate between such changes is the flux sum_f A e.u_i.
- *
- * Flux. Rows of the surface have a given pressure and no equation of their divergence. The liquid
- * keeps its volume all the same: the flux is that from behind these rows, through the particle and
- * what the half of the row behind it expands, dp^dim/2 div u. Without that the gas of a round
- * pocket, whose surface is a stair of the lattice, has 7 % less flux than the liquid, which gains
- * energy from it. From the particle u is continued to the faces, less div u along the normal n of
- * the row: R - div u n n has no trace, so that the flux is the same through whatever cells lie
- * before the row, and no face jumps where the surface moves by a cell.
- *
- * Films. Across a film of thickness T between pressures p and p' the pressure is linear, so the
- * particle half a spacing behind the face of p has
- *
- *   p_i = p - dp/2 n.G,   G = gradient: (p' - p)/T along the normal,
- *
- * n out of the liquid. From a face along axis d the film is T/|n_d| thick, so G_d is the mean of
- * (p' - p)/T_d over the faces along d. A particle with faces of both sides has the mean of them
- * all, and in a film of one row no neighbour that has the slope: gas_pocket.c. */
+/* Faces of gas pockets: volume, flux, and the pressures on the liquid behind them. e: direction of
+ * a face, out of the void; A: its area; i: the particle behind it. */
 #include "gas_pocket.h"
 
-/* ---- faces by row ---- */
+/* ---- faces sorted by row ---- */
 
 static void count_faces(const mps_voids *v, int64_t n, int32_t *begin)
 {
@@ -42,7 +18,7 @@ int mps__pocket_sort(mps_stage *s, mps__pocket_faces *f)
     int32_t *begin = mps_stage_scratch_integers(s, s->view->n + 2);
     int32_t *face = mps_stage_scratch_integers(s, v->faces + 1);
     if (!begin || !face) return 1;
-    /* begin[i + 1] is where row i goes on, and so at the end where row i + 1 begins */
+    /* begin[i + 1] is the write position of row i, so that at the end row i + 1 begins there */
     count_faces(v, s->view->n, begin + 1);
     for (int64_t k = 0; k < v->faces; k++)
         if (v->face_row[k] >= 0) face[begin[v->face_row[k] + 1]++] = (int32_t)k;
@@ -56,14 +32,14 @@ static double area_of(const mps_voids *v)
     return v->dim == 2 ? v->side : v->side * v->side;
 }
 
-/* Axis of a face, and 1 or -1: upwards or downwards along it. */
+/* Axis of a face; 1 or -1: direction along it. */
 static inline double direction(const mps_voids *v, int32_t face, int32_t *axis)
 {
     *axis = v->face_side[face] / 2;
     return v->face_side[face] % 2 ? 1.0 : -1.0;
 }
 
-/* Centre of a face in the frame of the tank. */
+/* Centre of a face in the tank frame. */
 MPS_ROW void face_centre(const int dim, const mps_voids *v, int32_t face, double *x)
 {
     int32_t axis;
@@ -76,7 +52,7 @@ MPS_ROW void face_centre(const int dim, const mps_voids *v, int32_t face, double
     }
 }
 
-/* A vector of the frame of the tank, in the lab. */
+/* Transform a vector from the tank frame to the lab frame. */
 MPS_ROW void to_lab(const int dim, const mps_view *v, const double *X, double *x)
 {
     for (int d = 0; d < dim; d++) {
@@ -85,9 +61,8 @@ MPS_ROW void to_lab(const int dim, const mps_view *v, const double *X, double *x
     }
 }
 
-/* The particle whose surface a face is: that behind it. Beside a wall, where the surface meets it,
- * that is the wall particle, and the surface is that of the nearest fluid. -1: a face towards a
- * wall. */
+/* The particle whose surface a face is: the one behind it. At the contact line that is a wall
+ * particle, and the surface belongs to the nearest fluid. -1: a face towards a wall. */
 MPS_ROW int64_t surface_of(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                            int32_t axis)
 {
@@ -117,7 +92,14 @@ MPS_ROW int64_t surface_of(const int dim, const mps_view *v, const mps__pocket_f
 
 enum { PAIR = MPS_PARALLEL_VALUES / 2 };
 
-/* Terms of volumes: e.(x_i - x_f) A, and the area of the surface of each particle. */
+/* Terms of volumes: e.(x_i - x_f) A, and the surface area of each particle.
+ *
+ * Volume. A layer of particles is dp/2 behind the surface of the liquid:
+ *
+ *   V = cells + sum_f A e.(x_i - x_f) - dp/2 S,   S = sum_i |sum_f of i A e|.
+ *
+ * The sum of the first two terms does not change when a cell changes between void and liquid at a
+ * flat surface; between such changes its rate is the flux sum_f A e.u_i. */
 MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                         double *sums)
 {
@@ -145,7 +127,7 @@ MPS_ROW void add_volume(const int dim, const mps_view *v, const mps__pocket_face
 }
 MPS_SUMS(add_volumes, add_volume, mps__pocket_faces)
 
-/* Components whose sums one loop over the rows finds: no more than there are, each costs in all rows. */
+/* Number of components summed by one loop over the rows; each costs time in all rows. */
 static int32_t batch_of(const mps__pocket_faces *f)
 {
     const int32_t left = f->voids.count - f->from;
@@ -168,8 +150,8 @@ void mps__pocket_volumes(mps_stage *s, mps__pocket_faces *f, double *volume)
     }
 }
 
-/* How the velocity changes about particle i: change_d = sum_e rise[d][e] (x_e - x_i_e). Beside walls
- * 0: the moment matrix has them, and their velocity along the face is not that of the fluid. */
+/* Velocity gradient around particle i: change_d = sum_e rise[d][e] (x_e - x_i_e). 0 beside walls:
+ * the moment matrix contains them, and their velocity along the face is not that of the fluid. */
 MPS_ROW void velocity_rise(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                            double rise[3][3])
 {
@@ -193,7 +175,7 @@ MPS_ROW void velocity_rise(const int dim, const mps_view *v, const mps__pocket_f
             for (int k = 0; k < dim; k++) rise[d][e] += dim / t->n0 * raw[d][k] * b[k * dim + e];
 }
 
-/* Centre of a face in the lab. */
+/* Centre of a face in the lab frame. */
 MPS_ROW void face_place(const int dim, const mps_view *v, const mps_voids *voids, int32_t face,
                         double *x)
 {
@@ -204,7 +186,8 @@ MPS_ROW void face_place(const int dim, const mps_view *v, const mps_voids *voids
     for (int d = 0; d < dim; d++) x[d] += v->tank.centre[d] + v->tank.shift[d];
 }
 
-/* Unit vector of the lab along the sum of the faces that a row has before a component; 0: none. */
+/* Unit vector, in the lab frame, along the sum of the faces between a row and a component; 0:
+ * none. */
 MPS_ROW void normal_of(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                        int32_t component, double *n)
 {
@@ -221,7 +204,7 @@ MPS_ROW void normal_of(const int dim, const mps_view *v, const mps__pocket_faces
     to_lab(dim, v, own, n);
 }
 
-/* e.(u - u_tank) of fluid particle j, continued to a face along `rise`. */
+/* e.(u - u_tank) of fluid particle j, extrapolated to a face with `rise`. */
 MPS_ROW double face_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t j,
                          int32_t face, double rise[3][3])
 {
@@ -240,8 +223,8 @@ MPS_ROW double face_flux(const int dim, const mps_view *v, const mps__pocket_fac
     return flux;
 }
 
-/* `rise` without its trace, for the faces that a row of fluid has before a component. Returns the
- * trace, div u. */
+/* Trace-free `rise`, for the faces between a row of fluid and a component. Returns the trace, div
+ * u. */
 MPS_ROW double row_rise(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                         int32_t component, double rise[3][3])
 {
@@ -254,7 +237,7 @@ MPS_ROW double row_rise(const int dim, const mps_view *v, const mps__pocket_face
     return lost;
 }
 
-/* Whether face k of a row is not the first before its component. */
+/* Whether face k of a row is not its first face with its component. */
 static inline bool is_again(const mps__pocket_faces *f, int64_t i, int32_t k)
 {
     for (int32_t m = f->begin[i]; m < k; m++)
@@ -262,8 +245,16 @@ static inline bool is_again(const mps__pocket_faces *f, int64_t i, int32_t k)
     return false;
 }
 
-/* Terms of fluxes: of all faces, and of those that a fluid particle has itself, from behind its row,
- * all before a component at the first. Fluid beside a wall has no rise. */
+/* Terms of fluxes: of all faces, and of those of fluid particles themselves, from behind the layer;
+ * the latter are added at the first face with a component. Fluid beside a wall has no rise.
+ *
+ * Flux. The surface layer has a given pressure and no equation for its divergence. The liquid must
+ * keep its volume nevertheless: the flux is that from behind the layer, through the particle, plus
+ * the expansion of the half of the layer behind it, dp^dim/2 div u. Without this term a round
+ * pocket, whose surface is a staircase of the lattice, has 7 % less flux than the liquid, which
+ * gains energy from it. u is extrapolated from the particle to the faces, less div u along the
+ * normal n of the layer: R - div u n n has no trace, so that the flux does not depend on the cells
+ * in front of the layer and does not jump when the surface moves by a cell. */
 MPS_ROW void add_flux(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                       double *sums)
 {
@@ -311,7 +302,7 @@ void mps__pocket_areas(const mps__pocket_faces *f, double *area)
 
 /* ---- pressures of rows ---- */
 
-/* Cells of liquid behind a face up to another component; -1: there is a wall before it. */
+/* Number of liquid cells behind a face up to another component; -1: a wall is met first. */
 static int32_t march(const mps_voids *v, int32_t face, int32_t *other)
 {
     int32_t axis, count = 0;
@@ -331,8 +322,8 @@ static int32_t march(const mps_voids *v, int32_t face, int32_t *other)
     return *other == MPS_VOID_SOLID ? -1 : count;
 }
 
-/* Thickness of a film along a unit vector of the lab, from particle i to the farthest of the film,
- * and half a spacing beyond both. */
+/* Thickness of a film along a unit vector of the lab frame: from particle i to the farthest
+ * particle of the film, plus half a spacing on both sides. */
 MPS_ROW double thickness(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                          const double *n)
 {
@@ -352,7 +343,7 @@ MPS_ROW double thickness(const int dim, const mps_view *v, const mps__pocket_fac
     return most - least + v->dp;
 }
 
-/* Number of a component's pocket; 0: it is none. */
+/* Number of a component's pocket; 0: no pocket. */
 static inline double number_of(const mps__pocket_faces *f, int32_t label)
 {
     return f->pocket[label].gas > 0 ? f->pocket[label].number : 0;
@@ -361,7 +352,7 @@ static inline double number_of(const mps__pocket_faces *f, int32_t label)
 /* Sums over the faces of a row. */
 typedef struct contact {
     double pressure, faces;
-    double number;           /* of the last pocket that has closed; 0: none is before the row */
+    double number;           /* of the last pocket that closed; 0: no pocket in front of the row */
     double out[3], count[3]; /* sum of directions out of the liquid; faces along each axis */
     double slope[3];         /* by axis: sum of (p' - p)/T_d */
     double inverse[3];       /* by axis: sum of 1/T_d */
@@ -393,10 +384,19 @@ MPS_ROW contact sum_faces(const int dim, const mps_view *v, const mps__pocket_fa
     return c;
 }
 
-/* Films of the near radius: the raster does not know their thickness well enough. */
+/* Thickness of films within the near radius: their thickness in the raster is too inaccurate. */
 static const double THIN = 2.5;
 
-/* Gradient in a film, in the lab. @return n.G dp/2 */
+/* Gradient in a film, lab frame. @return n.G dp/2
+ *
+ * Films. Across a film of thickness T between pressures p and p' the pressure is linear, so the
+ * particle half a spacing behind the face of p has
+ *
+ *   p_i = p - dp/2 n.G,   G = gradient: (p' - p)/T along the normal,
+ *
+ * n out of the liquid. From a face along axis d the film is T/|n_d| thick, so G_d is the mean of
+ * (p' - p)/T_d over the faces along d. A particle with faces on both sides has the mean of all of
+ * them, and in a film of one layer no neighbour has the slope: gas_pocket.c. */
 MPS_ROW double film(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i,
                     const contact *c, double *slope)
 {
@@ -433,7 +433,8 @@ MPS_ROW void press_fluid(const int dim, const mps_view *v, const mps__pocket_fac
     row[MPS__ROW_FILM] = c.inverse[0] + c.inverse[1] + c.inverse[2] > 0;
 }
 
-/* Void before a wall particle: the component nearest to the point half a cell before it. */
+/* Void in front of a wall particle: the component nearest to the point half a cell in front of
+ * it. */
 MPS_ROW void press_wall(const int dim, const mps_view *v, const mps__pocket_faces *f, int64_t i)
 {
     const double *area = v->area + i * dim;

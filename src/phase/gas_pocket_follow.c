@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pockets of gas from step to step. A component of the void has the gas of those pockets of the
- * last step that it overlaps. A pocket that overlaps several components is shared by their volumes
- * there; the share of the ambient is vented. A component that was ambient before is a pocket that
- * closes, with gas at the pressure of the ambient. A void that opens inside the liquid has none. */
+/* Gas pockets from step to step. A component of the void gets the gas of the pockets of the last
+ * step that it overlaps. A pocket that overlaps several components is divided in proportion to the
+ * overlap volumes; the part that overlaps the ambient is vented. A component that was ambient
+ * before becomes a closed pocket, with gas at ambient pressure. A void that opens inside the liquid
+ * has no gas. */
 #include "gas_pocket.h"
 
-/* Shares of a component that was ambient: from which on it closes; from which on an old pocket
- * takes ambient gas in. Share of an old pocket in the ambient from which on it is open: less is
- * what a moving surface changes at a neck. */
+/* Ambient fraction of a component: from which on it closes; from which on an old pocket takes in
+ * ambient gas. Ambient fraction of an old pocket from which on it is open: a moving surface at a
+ * neck changes less. */
 static const double CLOSES = 0.3, TAKES_IN = 0.2, OPEN = 0.1;
 
 static int32_t *overlap_of(const mps__pocket_now *now, int32_t old, int32_t component)
@@ -15,7 +16,7 @@ static int32_t *overlap_of(const mps__pocket_now *now, int32_t old, int32_t comp
     return now->overlap + (size_t)component * (size_t)(MPS__POCKET_FIRST + old);
 }
 
-/* Cells of each component by their label in the last step. */
+/* Count the cells of each component by their label in the last step. */
 static void count_overlaps(const mps_voids *v, const mps__pocket_old *old, mps__pocket_now *now)
 {
     const int32_t pockets = (int32_t)old->head->pockets;
@@ -36,7 +37,7 @@ static void count_overlaps(const mps_voids *v, const mps__pocket_old *old, mps__
     }
 }
 
-/* The ambient: what was most of it before, at first the largest component. */
+/* The ambient: the component with most of the previous ambient, initially the largest component. */
 static int32_t find_open(const mps_voids *v, int32_t pockets, const mps__pocket_now *now)
 {
     int32_t open = 0;
@@ -47,13 +48,13 @@ static int32_t find_open(const mps_voids *v, int32_t pockets, const mps__pocket_
     return open;
 }
 
-/* Volume that a component has where it overlaps an old pocket. */
+/* Volume of the overlap of a component with an old pocket. */
 static double part(const mps_voids *v, const mps__pocket_now *now, int32_t k, int32_t cells)
 {
     return now->geometry[k] * cells / mps_larger(1, v->size[k]);
 }
 
-/* Share out an old pocket. */
+/* Distribute the gas of an old pocket. */
 static void share_pocket(const mps_voids *v, const mps__pocket *p, int32_t pockets, int32_t number,
                          mps__pocket_now *now, mps__pocket_head *head)
 {
@@ -86,7 +87,7 @@ static void share_pocket(const mps_voids *v, const mps__pocket *p, int32_t pocke
     if (open > 0) head->vented += left;
 }
 
-/* Gas of the ambient that a component encloses. */
+/* Enclose ambient gas in a component. */
 static void enclose(const mps_voids *v, const mps__pocket_old *old, mps__pocket_now *now, int32_t k,
                     mps__pocket_head *head)
 {

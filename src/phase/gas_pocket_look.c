@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* When and how the model gas.pocket looks for voids. As long as there is no pocket, a raster a step
- * is not needed: a void closes while the surface of the liquid moves by spacings. So it is looked
- * at after the fastest particle of the surface may have moved by one, and after MOST steps, for
- * particles that users add. The way and the steps since the last look are in the state of the
- * model, so that all ranks and a restart look in the same steps. */
+/* When and how the model gas.pocket searches for voids. While there is no pocket, no raster is
+ * needed in each step: a void closes while the surface of the liquid moves by several spacings. So
+ * the search is repeated when the fastest surface particle may have moved by one spacing, and after
+ * MOST steps, for particles added by users. Displacement and number of steps since the last search
+ * are in the state of the model, so that all ranks and a restart search in the same steps. */
 #include "gas_pocket.h"
 
 static const double MOST = 16;
@@ -26,7 +26,7 @@ MPS_ROW void raise_speed(const int dim, const mps_view *v, const surface *f, int
 }
 MPS_SUMS(raise_speeds, raise_speed, surface)
 
-/* How far the surface has moved since the last look, at most. */
+/* Largest displacement of the surface since the last search. */
 static double moved_since(mps_stage *s, const surface *f, const mps__pocket_head *head)
 {
     double most = 0;

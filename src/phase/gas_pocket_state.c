@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pockets of gas between steps: the state of the model gas.pocket. */
+/* State of the model gas.pocket: pockets between steps. */
 #include "gas_pocket.h"
 #include <stdio.h>
 #include <string.h>
@@ -9,7 +9,7 @@ enum {
     POCKET = sizeof(mps__pocket) / sizeof(double)
 };
 
-/* Most that a pocket is compressed: a bound for sums that went wrong, beyond all impacts. */
+/* Largest compression of a pocket: limits erroneous sums, beyond all impacts. */
 static const double RATIO = 100;
 
 double mps__pocket_pressure(const double *setting, double gas, double volume)
@@ -102,7 +102,7 @@ static bool is_count(double x, double most)
     return x >= 0 && x <= most && x == floor(x);
 }
 
-/* Whether the runs fill the raster of the head, with labels of its pockets. */
+/* Whether the runs fill the raster of the head and have labels of its pockets. */
 static bool are_runs(const mps__pocket_head *head, const double *run)
 {
     double all = 1, sum = 0;

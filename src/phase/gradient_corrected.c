@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient with moment matrices, over fluid and wetted walls:
  *   G_i = D/n0 B_i sum w [(P_j - P_i + jump_ij)/rho_ij - b_ij.r_ij] r_ij,  a_i = -b - G_i,
- * w = W/r^2. b, jump_ij and rho_ij are those of the pressure equation (mps/flux.h): with
+ * w = W/r^2. b, jump_ij and rho_ij are those of the pressure equation (mps/flux.h). With
  * b = g - a_tank, b_ij.r_ij is the pressure difference of a fluid that moves with the tank, and -b
- * only adds the acceleration of the tank, as gravity is in u* already.
- * Surface particles have neighbours on one side only. `second_order` adds a second pass for them,
- * with 2 (P_j - P_i) - G_j.r_ij instead of P_j - P_i. */
+ * adds only the acceleration of the tank, because u* already contains gravity. Surface particles
+ * have neighbours on one side only. `second_order` adds a second pass for them, with 2 (P_j - P_i)
+ * - G_j.r_ij instead of P_j - P_i. */
 #include "helpers.h"
 
 enum { SECOND, SETTINGS };
@@ -27,7 +27,7 @@ typedef struct fields {
     double *first; /* [n*dim] G of the first pass */
 } fields;
 
-/* G_i; if `first` is not NULL the second pass. */
+/* G_i; second pass if `first` is not NULL. */
 MPS_ROW void gradient(const int dim, const mps_view *v, const fields *f, int64_t i,
                       const double *first, double *g)
 {

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Pressure gradient for high ratios of density, W22 (18), W22: Wen, Zhao & Wan 2022:
  *   a_i = -D/n0 sum [2 (P_j - P_i)/(rho_i + rho_j) + (P_i - P'_i)/rho_i] r_ij/|r_ij|^2 W,
- * P'_i the smallest pressure of i and its neighbours of the same phase; the second term keeps
- * particles apart. Densities are the smoothed ones. Solids have the density of the fluid beside
- * them: with the density of the gas a wall below the contact line would throw the gas off. Dummies
- * need pressures and densities: `wall.extrapolate`. */
+ * P'_i the smallest pressure of i and its neighbours of the same phase; the second term is
+ * repulsive. Densities are the smoothed ones. Solids have the density of the fluid beside them:
+ * with the density of the gas, a wall below the contact line would repel the gas. Dummies need
+ * pressures and densities: `wall.extrapolate`. */
 #include "helpers.h"
 
 enum { PRESSURE, DENSITY, ACCELERATION, USES };

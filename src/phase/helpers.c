@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Helpers that several models of the fluid share. */
+/* Helpers of the models of the fluid. */
 #include "helpers.h"
 #include <math.h>
 

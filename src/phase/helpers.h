@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Helpers that several models of the fluid share. */
+/* Helpers of the models of the fluid. */
 #ifndef MPS_PHASE_HELPERS_H
 #define MPS_PHASE_HELPERS_H
 
 #include <mps/model.h>
 #include <stdbool.h>
 
-/* Smallest and largest density of the fluid particles [kg/m3]; INFINITY, 0 without any. */
+/* Smallest and largest density of the fluid particles [kg/m3]; INFINITY, 0 without fluid. */
 void mps__density_range(const mps_stage *s, double range[2]);
 
-/* True for a fluid particle of the phase that a setting names. */
+/* True for a fluid particle of the phase given by a setting. */
 static inline bool mps__is_gas(const mps_view *v, int64_t i, double phase)
 {
     return mps_is_fluid(v, i) && v->phase[i] == (int32_t)phase;
@@ -19,17 +19,17 @@ static inline bool mps__is_gas(const mps_view *v, int64_t i, double phase)
  * Returns non-zero after a failure. */
 int mps__gas_check(mps_stage *s, double phase, double sound, const double *velocity);
 
-/* Takes the volumes by the equation of state from the channels "volume_deviation" and
- * "number_density": both then hold the error of the volumes alone.
- * denser: [n] (n - n0)/n0 by the equation of state, 0 for other particles; overwritten.
- * Returns non-zero after a failure. */
+/* Subtracts the volumes by the equation of state from the channels "volume_deviation" and
+ * "number_density", which then contain only the error of the volumes. Returns non-zero after a
+ * failure.
+ * denser: [n] (n - n0)/n0 by the equation of state, 0 for other particles; overwritten. */
 int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density);
 
-/* Share of the cell of particle i that holds gas, 0..1. Cells of wall particles count if
+/* Gas fraction in the cell of particle i, 0..1. Cells of wall particles count if
  * mps_equation.wall_factor > 0. region: the channel of that name. */
 double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, double phase);
 
-/* Arrays that mps__gas_conserve() works on. */
+/* Arrays for mps__gas_conserve(). */
 typedef struct mps__gas_rows {
     const int32_t *region;    /* channel "region" */
     const int32_t *condition; /* channel "pressure_condition" */
@@ -37,7 +37,7 @@ typedef struct mps__gas_rows {
     double phase;             /* phase of the gas */
 } mps__gas_rows;
 
-/* Sums over the rows: of the sources in the equation, of their rows, of rows of the gas, of fixed
+/* Sums over the rows: of the sources in the equation, of their number, of rows of the gas, of fixed
  * rows; over the gas of (volume by the equation of state - 1), in cells of the lattice. */
 enum {
     MPS__GAS_SOURCES,
@@ -48,13 +48,13 @@ enum {
     MPS__GAS_SUMS
 };
 
-/* Whether the pressure equation has row i. */
+/* Whether row i is in the pressure equation. */
 static inline bool mps__gas_in_equation(const mps_view *v, const int32_t *region, int64_t i)
 {
     return !mps_is_dummy(v, i) && mps_region_of(region, i) < MPS_REGION_SURFACE;
 }
 
-/* All sums of row i but the last. */
+/* Adds all sums of row i except the last. */
 MPS_ROW void mps__gas_add(const mps_view *v, const mps__gas_rows *f, int64_t i, double *sums)
 {
     if (f->condition[i] == MPS_ROW_FIXED) sums[MPS__GAS_FIXED]++;
@@ -64,8 +64,8 @@ MPS_ROW void mps__gas_add(const mps_view *v, const mps__gas_rows *f, int64_t i, 
     if (mps__is_gas(v, i, f->phase)) sums[MPS__GAS_OWN]++;
 }
 
-/* Keeps the volume of the gas if no row of the pressure equation is fixed: subtracts the sum of all
- * sources, and a part of the surplus. Call it before the gas adds its own terms.
+/* Conserves the volume of the gas if no row of the pressure equation is fixed: subtracts the sum of
+ * all sources, and a fraction of the surplus. Call it before the gas adds its own terms.
  * sums: [MPS__GAS_SUMS] */
 void mps__gas_conserve(const mps_stage *s, const mps__gas_rows *rows, const double *sums);
 

@@ -1,25 +1,27 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Friction of walls whose layer is thinner than a spacing or a few: what the no slip of
- * viscosity.laplacian and viscosity.pair lacks, with the history of the layer (layers.h).
+/* Friction of walls whose boundary layer is thinner than a few spacings: the part that the no-slip
+ * condition of viscosity.laplacian and viscosity.pair lacks, with the history of the layer
+ * (layers.h).
  *
- * Each wall particle carries the velocities q_k that the modes of its layer have reached, in its
- * tangential plane. w is the mean velocity of the fluid in the first row before it, relative to the
- * wall. The force goes to the same fluid with the same weights, as far as the row before the wall is
- * full, so that what the wall gives is what the fluid receives. As in friction.history a share of it acts
- * after all other verbs of MPS_VELOCITY.
+ * Each wall particle carries the velocities q_k of the modes of its layer, in its tangential plane.
+ * w is the mean velocity of the first layer of fluid particles in front of it, relative to the
+ * wall. The force acts on these particles with the same weights, reduced if their layer is not
+ * full, so that action equals reaction. As in friction.history a part of it acts after all other
+ * verbs of MPS_VELOCITY.
  *
- * A wall particle without fluid before it loses its layer. Where fluid comes, a new one grows.
+ * A wall particle without fluid in front of it loses its layer. Where fluid arrives, a new layer
+ * grows.
  *
- * The momentum of the half cells beside walls, which have no particles, is given to the first row.
- * So in steady flow the velocity is 0 half a spacing inside of the face: leave the model off where
- * the flow between walls is resolved. The line `friction` has what the walls take; the kinetic
- * energy of these layers is not told apart. */
+ * The momentum of the half cells beside walls, which have no particles, is assigned to the first
+ * layer of particles. So in steady flow the velocity is 0 half a spacing inside the face: disable
+ * the model where the flow between walls is resolved. The term `friction` of the energy budget
+ * contains the work of the walls; the kinetic energy of these layers is not listed separately. */
 #include "helpers.h"
 #include "layers.h"
 #include <mps/reaction.h>
 #include <string.h>
 
-/* Modes in a channel; a direction has two channels. */
+/* Modes in a channel; each direction has two channels. */
 enum { HALF = MPS__LAYERS / 2, LAYERS = 6 };
 
 #define LAYER(axis, which)                                                                         \
@@ -82,14 +84,15 @@ typedef struct fields {
     const double *density, *tank;
     double *velocity, *acceleration, *start, *flow;
     double *layer[LAYERS];
-    double *friction; /* [n*dim] what this model adds to the acceleration of fluid */
-    double *push;   /* [n*dim] of walls: change of the velocity of a full first row, over `total` */
-    double *total;  /* [n] of walls: sum of the weights of the fluid; 0: none */
-    double full;    /* `total` beside a whole row */
-    double turn[9]; /* of the tank in this step */
+    double *friction; /* [n*dim] contribution of this model to the acceleration of fluid */
+    double *push;     /* [n*dim] of walls: velocity change of a full first layer, over `total` */
+    double *total;    /* [n] of walls: sum of the weights of the fluid; 0: none */
+    double full;      /* `total` for a full layer */
+    double turn[9];   /* rotation of the tank in this step */
 } fields;
 
-/* Share of fluid particle j in the first row before wall particle i, with the unit normal. */
+/* Weight of fluid particle j in the first layer in front of wall particle i, with the unit
+ * normal. */
 MPS_ROW double share_of(const int dim, const mps_view *v, const mps_pair *q, const double *x_wall,
                         const double *x, const double *normal)
 {
@@ -118,7 +121,7 @@ MPS_ROW void keep_tangential(const int dim, const double *normal, double *u)
     for (int d = 0; d < dim; d++) u[d] -= along * normal[d];
 }
 
-/* Means over the first row before a wall. */
+/* Means over the first layer in front of a wall. */
 typedef struct row_mean {
     double total, rho, mu, u[3], other[3], tank[3];
 } row_mean;
@@ -162,7 +165,8 @@ MPS_ROW void lose_layer(const int dim, const fields *f, int64_t i)
     for (int k = 0; k < 2 * dim; k++) memset(f->layer[k] + HALF * i, 0, HALF * sizeof(double));
 }
 
-/* Acceleration of a full first row before wall i, by w and the layer at the beginning of the step. */
+/* Acceleration of a full first layer in front of wall i, by w and the boundary layer at the
+ * beginning of the step. */
 MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double normal[3], area, tank[3];
@@ -192,7 +196,7 @@ MPS_ROW void pull(const int dim, const mps_view *v, const fields *f, int64_t i)
 }
 MPS_ROWS(pull_rows, pull, fields)
 
-/* What all walls give to fluid j: sum of share push, over its density. */
+/* Contributions of all walls to fluid j: sum of weight times push, over its density. */
 MPS_ROW void receive(const int dim, const mps_view *v, const fields *f, int64_t j, double sum[3])
 {
     const mps_stencil *t = &v->near;
@@ -221,7 +225,7 @@ MPS_ROW void slow_down(const int dim, const mps_view *v, const fields *f, int64_
 }
 MPS_ROWS(slow_down_rows, slow_down, fields)
 
-/* Weights of a wall particle with a whole row of the lattice before it. */
+/* Sum of weights for a wall particle with a full lattice layer in front of it. */
 static double weight_of_row(const mps_view *v)
 {
     const int reach = (int)(v->near.re / v->dp) + 1, depth = v->dim == 3 ? reach : 0;
@@ -275,7 +279,7 @@ static int pull_fluid(mps_stage *s)
     return mps_stage_reaction(s, NULL, f.friction);
 }
 
-/* What the layer of wall i takes off the change of velocity by all others. */
+/* Part of the velocity change due to other forces that the added mass of wall i removes. */
 MPS_ROW void hold(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double normal[3], area;
@@ -304,7 +308,7 @@ MPS_ROW void give(const int dim, const mps_view *v, const fields *f, int64_t j)
 }
 MPS_ROWS(give_rows, give, fields)
 
-/* The layer follows the flow of this step, and turns with the tank. */
+/* Updates the layer by the flow of this step, and rotates it with the tank. */
 MPS_ROW void follow(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     double normal[3], area, tank[3], du[3] = {0};

@@ -5,9 +5,10 @@
 
 static const double PI = 3.14159265358979323846;
 
-/* Ratio of the rates; slowest rate 4 w^2, tan w = w; first weights, from the three conditions. */
+/* Ratio of the rates; smallest rate 4 w^2, tan w = w; first weights, from the three conditions. */
 static const double RATIO = 3.5, SLOWEST = 80.7629142257065;
-/* Its logarithm and its power of 6, exact: else kernels of devices find them for each particle. */
+/* Its logarithm and its power of 6, exact: otherwise kernels of devices would compute them for each
+ * particle. */
 static const double LOG_RATIO = 1.2527629684953681, POWER_6 = 1838.265625;
 static const double FIRST[3] = {8.061972689696825, 12.990337578214488, 24.839696676022093};
 
@@ -23,12 +24,12 @@ static double phi2(double z, double first)
     return z < 1e-3 ? 0.5 - z * (1.0 / 6 - z * (1.0 / 24 - z / 120)) : (1 - first) / z;
 }
 
-/* What the modes are made of, without dimensions. */
+/* The modes, dimensionless. */
 typedef struct modes {
     double scale; /* [1/s] */
     double steady, slowest;
-    double weight; /* over the root of the rate */
-    int first;     /* of the modes with weights of their own: */
+    double weight; /* over the square root of the rate */
+    int first;     /* of the modes with own weights: */
     int count;
     const double *own;
 } modes;
@@ -37,8 +38,8 @@ static void fill(const modes *m, double dt, mps__layers *layers)
 {
     const double steady = m->steady * m->scale, single = phi1(steady * dt);
     double rate = m->slowest, drag = steady;
-    /* Of a lone steady part u decays by exp(-steady dt): this share of du is implicit, 1/2 for
-     * short steps. */
+    /* With a steady part alone, u decays by exp(-steady dt): this fraction of du is implicit, 1/2
+     * for short steps. */
     double added = steady * dt * phi2(steady * dt, single) / single;
     for (int k = 0; k < MPS__LAYERS; k++, rate *= RATIO) {
         const bool own = k >= m->first && k < m->first + m->count;

@@ -2,18 +2,11 @@
 /* Moment matrices of the pressure operators, over fluid and wetted walls:
  *   B_i = M_i^-1,  M_i = D/n0 sum w r_ij (x) r_ij,  w = W/r^2.
  * With B_i gradient and divergence are exact for linear fields. Eigenvalues of M_i below `floor`
- * are raised to `floor`; of surface particles below `surface`.
- * Why `surface` is smaller: the eigenvalue along the normal of a flat surface is 0.5, and less in a
- * disordered or stretched row. A floor of 0.5 takes 4-11 % of the gradient from most surface
- * particles. The row then lags behind its pressure, and waves grow by 2-3 % a period. Inside the
- * fluid, lower floors make calm water noisy.
- *
- * Torn gas has few neighbours, here and there. Gradient and divergence both carry B, the Laplacian
- * does not: along a direction in which M has the eigenvalue m, a pressure takes away
- * m/max(m, floor)^2 <= 1/floor times the divergence that asked for it. With a floor of 0.5 and a
- * gain of 0.7 that is 1.4 times, and voids grow. For the lightest of several fluids the floor goes
- * to `torn`, which should be the gain, where its volume is too large by more than 15 %
- * (source.volume): then no step takes away more than was asked for. */
+ * are raised to `floor`; for surface particles to `surface`. Why `surface` is smaller: the
+ * eigenvalue along the normal of a flat surface is 0.5, and less in a disordered or stretched row.
+ * A floor of 0.5 reduces the gradient of most surface particles by 4-11 %. The layer then lags
+ * behind its pressure, and waves grow by 2-3 % per period. Inside the fluid, lower floors make calm
+ * water noisy. */
 #include "helpers.h"
 
 enum { FLOOR, SURFACE, TORN, SETTINGS };
@@ -25,7 +18,7 @@ static const mps_setting settings[SETTINGS] = {
     [TORN] = {"torn", "-", "Smallest eigenvalue of M in torn gas, if larger than floor",
               MPS_TYPE_REAL, 0.0, 0.0, 1.0}};
 
-/* Volume deviation from which gas counts as torn. */
+/* Volume deviation above which gas counts as torn. */
 static const double TORN_FROM = 0.15;
 
 static const mps_channel channels[] = {
@@ -50,7 +43,14 @@ typedef struct fields {
     double light; /* density of the gas that may be torn; 0: none */
 } fields;
 
-/* Smallest eigenvalue allowed for particle i. */
+/* Smallest eigenvalue allowed for particle i.
+ *
+ * Torn gas has few, scattered neighbours. Gradient and divergence both contain B, the Laplacian
+ * does not: along a direction in which M has the eigenvalue m, a pressure removes m/max(m,
+ * floor)^2 <= 1/floor times the requested divergence. With a floor of 0.5 and a gain of 0.7 that is
+ * 1.4 times, and voids grow. For the lightest of several fluids the floor changes to `torn`, which
+ * should equal the gain, where its volume is too large by more than 15 % (source.volume): then no
+ * step removes more than requested. */
 static inline double floor_of(const mps_view *view, const fields *f, int64_t i)
 {
     const double plain =
@@ -102,7 +102,7 @@ static int invert_moments(mps_stage *s)
     return 0;
 }
 
-/* Before the gas takes what its law wants from the volume deviation. */
+/* Before the gas subtracts its law from the volume deviation. */
 static const mps_verb verbs[] = {
     {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .before = "gas", .run = invert_moments}};
 

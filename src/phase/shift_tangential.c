@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Particle shifting toward an even lattice:
  *   s_i = -c dt (U_g + max_j |u_j - u_i|) l D/n0 sum w r_ij  over all kinds,  w = W/r^2,
- * at most `limit` l, l the spacing, U_g the mps_view.velocity_scale. In the first two rows of a
+ * at most `limit` l, l the spacing, U_g the mps_view.velocity_scale. In the first two layers of a
  * free surface the part along the normal of the surface is removed: it would expand the fluid.
- * Near walls and in corners of calm water, sum w r_ij would push the fluid without end, against the
- * volume term: a disordered lattice presses on an ordered one. So the part with U_g loses the share
- * `filter` of its kernel mean and keeps what varies from particle to particle. The part with the
- * strain rate stays whole: it repairs what a violent flow tears. With `calm` U_g is at most that
- * many relative speeds max_j |u_j - u_i|: where nothing moves nothing wears the lattice, and a shift
- * of a still fluid only drives a flow that takes it back.
- * Beside another density the U_g part also loses its part normal to the interface: the lattices of
- * both fluids would press on each other there, lift the heavy one, and work against the waves of the
- * interface.
- * With `transport` the velocity is moved along: u += s.grad u over fluid of the same phase, within
- * the range of the velocities of its neighbours. Over all neighbours, or without bounds, a lone
- * drop would accelerate itself. */
+ *
+ * Near walls and in corners of calm water, sum w r_ij would push the fluid forever, against the
+ * volume term: a disordered lattice presses on an ordered one. So the fraction `filter` of its
+ * kernel mean is subtracted from the part with U_g, which keeps its variation from particle to
+ * particle. The part with the strain rate is not filtered: it repairs the lattice in violent flow.
+ * With `calm` U_g is at most that many relative speeds max_j |u_j - u_i|: in fluid at rest the
+ * lattice does not degrade, and a shift only drives a flow that reverses it.
+ *
+ * Beside another density the component normal to the interface is removed from the U_g part too:
+ * otherwise the lattices of both fluids would press on each other, lift the heavy one, and work
+ * against interface waves.
+ *
+ * With `transport` the velocity is advected by the shift: u += s.grad u over fluid of the same
+ * phase, within the range of the velocities of its neighbours. Over all neighbours, or without
+ * bounds, a single droplet would accelerate itself. */
 #include "helpers.h"
 #include "walls.h"
 
@@ -36,8 +39,8 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS 
                                    [ASYMMETRY] = {"asymmetry", MPS_USE_NEIGHBOURS},
                                    [DISPLACEMENT] = {"displacement", MPS_USE_CHANGE}};
 
-/* Distance from a wall [dp] below which no shift leads towards it. Particles in the nearer half,
- * spray too, are moved out of it. */
+/* Distance from a wall [dp] below which shifts do not move particles towards it. Particles in the
+ * nearer half, including spray, are moved out of it. */
 static const double wall_distance = 0.5;
 
 typedef struct fields {
@@ -48,18 +51,18 @@ typedef struct fields {
     double *du;   /* [n*dim] change of the velocity */
 } fields;
 
-/* Results of one pass over the pairs of a particle. */
+/* Sums of one pass over the pairs of a particle. */
 typedef struct pair_sums {
     double mean[3], weight; /* kernel sums over inner fluid: of `even`, of 1 */
     double most;            /* largest |u_j - u_i|^2 of the fluid */
     double m[9], g[9];      /* sums of w r_ij (x) r_ij and w (u_j - u_i) (x) r_ij, same phase */
     double low[3], high[3]; /* range of u_j - u_i, same phase */
     double even[3];         /* of i itself */
-    bool solids;            /* among the pairs */
+    bool solids;            /* solids are among the pairs */
 } pair_sums;
 
-/* Normal of the free surface near i: its own asymmetry, or the mean of its surface neighbours'. Not
- * a unit vector. */
+/* Normal of the free surface near i: its own asymmetry, or the mean over its surface neighbours.
+ * Not a unit vector. */
 MPS_ROW void surface_normal(const int dim, const mps_view *view, const fields *f, int64_t i,
                             double n[3])
 {
@@ -77,8 +80,8 @@ MPS_ROW void surface_normal(const int dim, const mps_view *view, const fields *f
     }
 }
 
-/* Unit normal of the interface between two densities beside i. @return 0: there is none, 1: as good
- * as a plane */
+/* Unit normal of the interface between two densities beside i. @return 0: no interface, 1:
+ * practically plane */
 MPS_ROW double interface_normal(const int dim, const mps_view *view, const fields *f, int64_t i,
                                 double n[3])
 {
@@ -146,7 +149,7 @@ MPS_ROW void collect(const int dim, const mps_view *view, const fields *f, int64
     }
 }
 
-/* Takes from v its part normal to the interface, except that of the strain rate, torn * even. */
+/* Removes from v its part normal to the interface, except that of the strain rate, torn * even. */
 MPS_ROW void along_interface(const int dim, const mps_view *view, const fields *f, int64_t i,
                              double torn, const double *even, double v[3])
 {
@@ -201,8 +204,8 @@ MPS_ROW void transport(const int dim, const mps_view *view, const pair_sums *sum
     }
 }
 
-/* Displacement of a particle, and with `transport` the change of its velocity. All is inlined into
- * one function, so that the sums stay in registers. */
+/* Displacement of a particle, and with `transport` the change of its velocity. Everything is
+ * inlined into one function, so that the sums stay in registers. */
 MPS_ROW void move(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     if (!mps_is_fluid(view, i)) return;

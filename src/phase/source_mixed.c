@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Mixed source, W22 (10) to the letter, W22: Wen, Zhao & Wan 2022:
+/* Mixed source, W22 (10) literally, W22: Wen, Zhao & Wan 2022:
  *   (1 - gamma) (div u*)/dt - gamma (n - n0)/(n0 dt^2).
- * Rows of the pressure equation are -<lap p>/rho, so the signs are turned. */
+ * Rows of the pressure equation are -<lap p>/rho, so the signs are reversed. */
 #include "helpers.h"
 
 enum { GAMMA, SETTINGS };
@@ -22,7 +22,7 @@ typedef struct fields {
 
 static const mps_use equation_uses[] = {{"equation_wall_factor", MPS_USE_CHANGE}};
 
-/* Pairs of walls count whole, whatever the model of walls wants. */
+/* Pairs of walls have full weight, independent of the model of walls. */
 static int set_equation(mps_stage *s)
 {
     *(double *)s->data[0] = 1;

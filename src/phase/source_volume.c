@@ -2,38 +2,17 @@
 /* Source of the pressure equation for the scheme "imps":
  *   gain (delta/tau - Div(v))/dt,  Div_i = D/n0 sum w (v_j - v_i).B_i r_ij,  w = W/r^2,
  * v the velocities relative to the reference motion. Gravity and the acceleration of the tank are
- * in the body field b = g - a_tank, so that fluid at rest or rigidly accelerated is exact on any
- * arrangement of particles. Walls are free-slip: no-slip walls double the noise.
- * tau_g = dp/U_g, U_g the mps_view.velocity_scale.
+ * in the body force b = g - a_tank, so that fluid at rest or rigidly accelerated is exact on any
+ * arrangement of particles. Walls are free-slip: no-slip walls double the noise. tau_g = dp/U_g,
+ * U_g the mps_view.velocity_scale.
  *
  * gain: gradient and divergence are not exact inverses. In films of one or two particles on a wall,
- * where B is large in both, a full step overshoots more than twice, and the error grows from step
- * to step with alternating sign; hence the gain below 1. A steady pressure does not depend on the
- * gain; a change arrives 1/gain steps later.
+ * where B is large in both, a full step overshoots by more than a factor of two, and the error
+ * grows from step to step with alternating sign; hence the gain below 1. A steady pressure does not
+ * depend on the gain; a change is delayed by 1/gain steps.
  *
- * strain, forward: the strain of the flow adds -dt T to Div(v) in every step, T = tr((grad v)^2).
- * If that is delayed by the gain too, strained particles are compressed at the rate
- * (1/gain - 1) dt T, and delta expands them again against the pressure of another time and place.
- * T is known beforehand, so the source asks for the share `forward` of it in full.
- *
- * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged.
- *  - tau: the error of delta follows the waves, and a short tau feeds them; so it is 20 tau_g.
- *  - firm: compression by per cents, after an impact, must be gone before the next impact. Beyond
- *    `firm` the time falls to tau_g.
- *  - torn, rapid: gas that is expanded or compressed by tens of per cents recovers in dp/(U rapid),
- *    U the largest speed of the denser fluid, which drives it, and at least U_g. In a share of the
- *    step it would be a kick that feeds itself: fast gas makes short steps.
- *  - start: the set-up has a delta beside walls that are not on the lattice, 10 % at slopes of 45
- *    degrees. Corrected at once, it took twice the hydrostatic pressure in the first step. The
- *    correction grows over the first `start` tau_g instead.
- *
- * Beside another density the velocities of neighbours count by mass: the face between water and air
- * moves with the water.
- *
- * pace: a velocity that must vanish within a step takes a pressure ~ 1/dt. Gas squeezed out of a
- * closing gap is ten times as fast as the water that drives it, and makes the steps as short. So
- * the source of the dense fluid is scaled by dt over the dt that its own speed would allow. Its
- * pressures are then those of steps of that length. */
+ * Beside another density the velocities of neighbours are weighted by mass: the face between water
+ * and air moves with the water. */
 #include "helpers.h"
 
 enum { TAU, CLIP, STRAIN, GAIN, FIRM, RAPID, TORN, FORWARD, PACE, ASIDE, START, SETTINGS };
@@ -80,9 +59,14 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_READ},
                                    [CORRECTION] = {"correction", MPS_USE_READ},
                                    [SOURCE] = {"pressure_source", MPS_USE_CHANGE}};
 
-/* Share of the source that a step asks for, by density: 1 for the lightest fluid, `heavy` for the
- * heaviest. span: difference of their densities. drive: largest speed of all fluid but the
- * lightest, at least U_g [m/s]. */
+/* Scale of the source by density: 1 for the lightest fluid, `heavy` for the heaviest. span:
+ * difference of their densities. drive: largest speed of all fluid except the lightest, at least
+ * U_g [m/s].
+ *
+ * pace: a velocity that must vanish within a step needs a pressure ~ 1/dt. Gas squeezed out of a
+ * closing gap is ten times as fast as the water that drives it, and the steps are shorter by that
+ * factor. So the source of the dense fluid is scaled by dt over the dt that its own speed would
+ * allow. Its pressures are then those of steps of that length. */
 typedef struct pacing {
     double lightest, span, heavy, drive;
 } pacing;
@@ -92,20 +76,20 @@ typedef struct fields {
     const double *correction;
     const int32_t *region;
     double *source;
-    double *is_solid, *solid; /* [n] 1 for solids, their share in the volume about a particle */
+    double *is_solid, *solid; /* [n] 1 for solids; their volume fraction around a particle */
     double *delta;            /* [n] clipped volume deviation */
     double *relative;         /* [n*dim] relative velocity */
-    double *v;                /* [n*dim] the same with walls that slip */
-    int32_t whole;            /* last region with a whole far kernel */
-    double strain;            /* share of dt T */
+    double *v;                /* [n*dim] the same with slip at walls */
+    int32_t whole;            /* last region with a full far kernel */
+    double strain;            /* factor of dt T */
     double own;               /* weight of a particle's own delta in the kernel mean */
-    double rate, over, on;    /* 1/tau_g, 1/dt, share of the relaxation at the start */
+    double rate, over, on;    /* 1/tau_g, 1/dt, fraction of the relaxation at the start */
     pacing pace;
 } fields;
 
-/* delta of a fluid particle; not negative near the surface, where the kernel is cut off. The region
- * SECOND has no surface particle within the near radius: there a kernel that reaches at most half a
- * spacing farther is whole. */
+/* delta of a fluid particle; not negative near the surface, where the kernel is truncated. The
+ * region SECOND has no surface particle within the near radius: there a kernel that extends at most
+ * half a spacing farther is complete. */
 MPS_ROW double clipped_deviation(const mps_view *view, const fields *f, int64_t i)
 {
     const double clip = view->setting[CLIP];
@@ -114,8 +98,8 @@ MPS_ROW double clipped_deviation(const mps_view *view, const fields *f, int64_t 
     return mps_smaller(clip, mps_larger(-clip, v));
 }
 
-/* Fills is_solid, delta, and relative: of fluid the velocity as if it moved with the tank during
- * this step, without gravity and pressure; of walls their velocity in this step. */
+/* Sets is_solid, delta, and relative: for fluid the velocity as if it moved with the tank during
+ * this step, without gravity and pressure; for walls their velocity in this step. */
 MPS_ROW void prepare(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     const bool fluid = mps_is_fluid(view, i);
@@ -130,16 +114,16 @@ MPS_ROW void prepare(const int dim, const mps_view *view, const fields *f, int64
 }
 MPS_ROWS(prepare_rows, prepare, fields)
 
-/* Share of a neighbour's velocity in that of the face between both: by mass, so that water does not
- * respond to the air beside it. With it the divergence is the adjoint of a pressure gradient over
- * rho_ij. */
+/* Weight of a neighbour's velocity in that of the face between both: by mass, so that water does
+ * not respond to the air beside it. With this weight the divergence is the adjoint of a pressure
+ * gradient over rho_ij. */
 static inline double face_share(const mps_view *view, const double *rho, int64_t i, int64_t j)
 {
     if (view->phase[i] == view->phase[j] || !mps_is_fluid(view, j)) return 1.0;
     return 2.0 * rho[j] / (rho[i] + rho[j]);
 }
 
-/* Free slip: a wall particle keeps its velocity along its normal and takes that of the fluid about
+/* Free slip: a wall particle keeps its velocity along its normal and has that of the fluid around
  * it along the face. */
 MPS_ROW void slip_wall(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
@@ -157,8 +141,8 @@ MPS_ROW void slip_wall(const int dim, const mps_view *view, const fields *f, int
     for (int d = 0; d < dim; d++) largest = mps_larger(largest, fabs(area[d]));
     if (weight == 0 || size == 0) return;
     for (int d = 0; d < dim; d++) normal += sum[d] / weight * area[d] / sqrt(size);
-    /* where faces of the lattice meet (half a cell of each) no direction is free in 2-D, and only
-     * the edge in 3-D */
+    /* where faces of the lattice meet (half a cell of each), no direction is tangential in 2-D, and
+     * only the edge in 3-D */
     if (dim == 2 && size > 1.5 * largest * largest && size < 0.6 * view->dp * view->dp) return;
     for (int d = 0; d < dim; d++)
         f->v[i * dim + d] += sum[d] / weight - normal * area[d] / sqrt(size);
@@ -172,7 +156,7 @@ MPS_ROW void slip(const int dim, const mps_view *view, const fields *f, int64_t 
 }
 MPS_ROWS(slip_rows, slip, fields)
 
-/* B_i with the shares of faces, for a particle beside another density. */
+/* B_i with the weights of faces, for a particle beside another density. */
 MPS_ROW void face_correction(const int dim, const mps_view *view, const fields *f, int64_t i,
                              double *b)
 {
@@ -205,11 +189,17 @@ MPS_ROW double strained_divergence(const int dim, const mps_stencil *t, const do
 }
 
 /* Divergence of a fluid particle less `strain` dt T. Moving particles from x to x + dt v changes
- * volumes by dt div v - dt^2 T/2 + ..., so div v = dt T/2 is wanted after the step; before the step
- * strain = 1/gain - 1/2 asks for T beyond the gain as well. With strain 0 strained particles are
- * compressed at the rate (1/gain - 1/2) dt T, and delta expands them again against the pressure.
+ * volumes by dt div v - dt^2 T/2 + ..., so that div v must be dt T/2 after the step. Before the
+ * step, strain = 1/gain - 1/2 compensates the gain for T as well. With strain 0 strained particles
+ * are compressed at the rate (1/gain - 1/2) dt T, and delta expands them again against the
+ * pressure.
  * deviation: out, kernel mean of delta over the fluid: noise of delta at the scale of the lattice
- * must not reach the pressure. */
+ * must not affect the pressure.
+ *
+ * strain, forward: the strain of the flow adds -dt T to Div(v) in every step, T = tr((grad v)^2).
+ * If the gain delays that too, strained particles are compressed at the rate (1/gain - 1) dt T, and
+ * delta expands them again against the pressure of another time and position. T is known in
+ * advance, so the source contains the fraction `forward` of it without the gain. */
 MPS_ROW double fluid_divergence(const int dim, const mps_view *view, const fields *f, int64_t i,
                                 double *deviation)
 {
@@ -256,8 +246,8 @@ static inline bool lighter(const mps_view *view, const fields *f, int64_t i, int
     return mps_is_fluid(view, j) && f->density[j] < 0.5 * f->pressure_density[i];
 }
 
-/* Largest speed relative to wall particle i of the fluid about it that is as dense as its row; at
- * least that of calm water. */
+/* Largest speed, relative to wall particle i, of the fluid around it that is as dense as its row;
+ * at least that of calm water. */
 MPS_ROW double wall_speed(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     const mps_stencil *t = &view->near;
@@ -278,8 +268,8 @@ MPS_ROW double wall_speed(const int dim, const mps_view *view, const fields *f, 
 }
 
 /* Divergence of the half cell of a wall particle, with the weights of its row of the pressure
- * equation. Where gas and water share the cell, the speed of the gas is limited to that of the
- * water: otherwise gas that shoots along the wall would set the pressure of the water there. */
+ * equation. Where gas and water are in one cell, the speed of the gas is limited to that of the
+ * water: otherwise fast gas along the wall would determine the pressure of the water there. */
 MPS_ROW double wall_divergence(const int dim, const mps_view *view, const fields *f, int64_t i)
 {
     const mps_stencil *t = &view->near;
@@ -304,8 +294,19 @@ MPS_ROW double wall_divergence(const int dim, const mps_view *view, const fields
     return dim / t->n0 * sum;
 }
 
-/* tau_g over the relaxation time of delta: tau_g/tau (times `open`), up to 1 where delta is beyond
- * `firm`, and up to `most` more where it is beyond `torn`. */
+/* tau_g over the relaxation time of delta: tau_g/tau (times `open`), plus up to 1 for delta beyond
+ * `firm`, plus up to `most` for delta beyond `torn`.
+ *
+ * delta is the volume deviation of mps_op_volume_deviation(), clipped and averaged.
+ *  - tau: the error of delta follows the waves, and a short tau amplifies them; so it is 20 tau_g.
+ *  - firm: compression by some per cent, after an impact, must vanish before the next impact.
+ *    Beyond `firm` tau decreases to tau_g.
+ *  - torn, rapid: gas that is expanded or compressed by tens of per cent recovers in dp/(U rapid),
+ *    U the largest speed of the denser fluid, which drives it, and at least U_g. A time
+ *    proportional to the step would be unstable: fast gas makes short steps.
+ *  - start: initially delta is not 0 beside walls that are not on the lattice, 10 % at slopes of 45
+ *    degrees. Its correction at once took twice the hydrostatic pressure in the first step. The
+ *    correction increases over the first `start` tau_g instead. */
 static inline double relaxation(const double *k, double delta, double open, double most)
 {
     const double firm = delta * delta / (k[FIRM] * k[FIRM]);

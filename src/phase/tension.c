@@ -4,20 +4,19 @@
  *   f(x) = sum C_j G / sum G,  G = exp(-9 r^2/r_s^2),  kappa = div(grad f/|grad f|).
  * C_j = 0 for the phase of i and 1 for all others: between two phases the factor of (20) cancels in
  * kappa. kappa is positive if the interface bends around i's own phase, so that the pressure is
- * higher inside a drop; with the sign of W22 (22) drops would swell. Where three phases meet, each
- * one sees the contour between itself and all others. Solids have no phase: fluid alone makes f,
- * which is a contact angle of 90 degrees. Thin plates do not cut f off.
+ * higher inside a droplet; with the sign of W22 (22) droplets would swell. Where three phases meet,
+ * the contour of each one is that between itself and all others. Solids have no phase: f is made of
+ * fluid only, which gives a contact angle of 90 degrees. Thin plates do not truncate f.
  *
- * r_s decides the noise, as kappa is a second derivative of steps. Circle of radius 10.5 dp cut
- * from a lattice: error of the mean of kappa weighted by |grad C|, and scatter between particles.
- * A disordered lattice gives the same. Films and drops thinner than about r_s/2 are smeared.
+ * r_s determines the noise, because kappa is a second derivative of a step function. Circle of
+ * radius 10.5 dp cut from a lattice: error of the mean of kappa weighted by |grad C|, and scatter
+ * between particles. A disordered lattice gives the same. Films and droplets thinner than about
+ * r_s/2 are smeared.
  *   r_s/dp              4.1     6.1     8.1    10.1    12.1
  *   circle, mean     +0.9 %  +0.4 %  +0.2 %    0     -0.1 %
  *   circle, scatter   150 %    57 %    28 %   16 %      9 %
  *   sphere of 6.3 dp, mean      +0.4 %  -0.2 %  -0.5 %
- *   sphere of 6.3 dp, scatter     40 %    12 %     5 %
- *
- * r_s is larger than the radii of the simulation: a grid of cells of side r_s finds neighbours. */
+ *   sphere of 6.3 dp, scatter     40 %    12 %     5 % */
 #include "tension.h"
 
 /* Sums of G, of G (C_j - C_i), and of their first and second derivatives by x_i. */
@@ -28,7 +27,7 @@ typedef struct contour_sums {
 typedef struct fields {
     mps_grid grid;
     double threshold;
-    int32_t which; /* MPS_NEAR or MPS_FAR: the pairs that tell an interface */
+    int32_t which; /* MPS_NEAR or MPS_FAR: the pairs that define an interface */
     double *kappa;
 } fields;
 
@@ -56,6 +55,7 @@ MPS_ROW void add_neighbour(const int dim, const mps_view *v, double decay, int64
     }
 }
 
+/* r_s is larger than the radii of the simulation: a grid of cells of side r_s finds neighbours. */
 MPS_ROW void collect(const int dim, const mps_view *v, const mps_grid *grid, int64_t i,
                      contour_sums *m)
 {
@@ -70,7 +70,8 @@ MPS_ROW void collect(const int dim, const mps_view *v, const mps_grid *grid, int
         for (int64_t j = grid->first[mps_grid_bucket(grid, cell)] - 1; j >= 0;
              j = grid->next[j] - 1) {
             int64_t of[3];
-            mps_grid_cell(grid, v->x + j * dim, of); /* other cells may share the bucket */
+            /* particles of other cells may be in the same bucket */
+            mps_grid_cell(grid, v->x + j * dim, of);
             if (of[0] != cell[0] || of[1] != cell[1] || of[2] != cell[2]) continue;
             add_neighbour(dim, v, decay, i, j, m);
         }

@@ -2,13 +2,12 @@
 /* Surface tension as a jump of the pressure across an interface,
  *   p_i - p_j = (sigma kappa_i - sigma kappa_j)/2,
  * kappa as in tension.c: positive if the interface bends around the particle's own phase. The jump
- * is in the pairs of the pressure equation and of its gradient (mps/flux.h), so that a drop at rest
- * stays at rest, up to the noise of kappa. A force such as tension.csf is balanced by gradients of
- * other pairs and drives currents. Therefore r_s can be smaller here; a smaller r_s responds to
- * single particles that leave their phase.
- * sigma is that of mps_tension_set() for two phases, else the setting; a particle with several
- * other phases about it takes the mean. Needs a gradient that reads the jump:
- * gradient.corrected. */
+ * is in the pairs of the pressure equation and of its gradient (mps/flux.h), so that a droplet at
+ * rest stays at rest, up to the noise of kappa. A force such as tension.csf is balanced by
+ * gradients of other pairs and drives spurious currents. Therefore r_s can be smaller here; a
+ * smaller r_s responds to single particles outside their phase. sigma is that of mps_tension_set()
+ * for two phases, else the setting; a particle with several other phases around it uses the mean.
+ * The gradient must include the jump: gradient.corrected. */
 #include "tension.h"
 
 enum { SIGMA, RADIUS, THRESHOLD, SETTINGS };

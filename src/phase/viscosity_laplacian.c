@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Viscous acceleration a = nu <lap u>, W22 (2)(6), over all pairs; W22: Wen, Zhao & Wan 2022.
- * Walls do not slip: they have the velocity of the tank.
- *   mirror 1 (default): dummies are seen mirrored (friction.h)
+/* Viscous acceleration a = nu <lap u>, W22 (2)(6), over all pairs; W22: Wen, Zhao & Wan 2022. Walls
+ * do not slip: they have the velocity of the tank.
+ *   mirror 1 (default): dummies have mirrored velocities (friction.h)
  *   mirror 0, W22: dummies have the velocity of the tank too
- * If a model brings the channel "viscosity" [Pa s], a particle has the value of that channel
- * instead of the viscosity of its phase. */
+ * If a model has the channel "viscosity" [Pa s], its value replaces the viscosity of the phase. */
 #include "friction.h"
 #include <mps/reaction.h>
 
@@ -25,11 +24,11 @@ typedef struct fields {
     const double *velocity, *density;
     const double *viscosity; /* NULL: of the phases */
     double *acceleration;
-    double *friction; /* [n*dim] the share of solids */
+    double *friction; /* [n*dim] the part due to solids */
     bool mirror;
 } fields;
 
-/* W of the pairs from..from+count-1 of row i: roots and divisions run several at a time. */
+/* W of the pairs from..from+count-1 of row i: vectorises roots and divisions. */
 MPS_ROW void weights(const int dim, const mps_stencil *t, int64_t i, int64_t from, int count,
                      double *w)
 {

@@ -2,19 +2,20 @@
 /* Viscous acceleration of several phases, W22 (14)(15), W22: Wen, Zhao & Wan 2022, over all pairs:
  *   a_i = 2D/(n0 lambda rho_i) sum mu_ij (u_j - u_i) W,
  *   mu_ij = [(mu_i^theta + mu_j^theta)/2]^(1/theta),
- * theta -1: harmonic mean, 1: arithmetic, 0: geometric. This is div(mu grad u). It lacks the rest
- * of the stress, grad u . grad mu: 0 in one fluid, but not where mu jumps. A drop that turns with
- * the liquid about it would feel friction. With `stress` 1 pairs act along e = r_ij/|r_ij|,
+ * theta -1: harmonic mean, 1: arithmetic, 0: geometric. This is div(mu grad u). It lacks the other
+ * part of the stress, grad u . grad mu, which is 0 in one fluid, but not where mu jumps. A droplet
+ * that rotates with the liquid around it would have friction. With `stress` 1 pairs act along e =
+ * r_ij/|r_ij|,
  *   a_i = 2D (D + 2)/(n0 lambda rho_i) sum mu_ij [(u_j - u_i).e] e W,
  * which is div(mu (grad u + grad u^T)) if div u = 0. In a square lattice (far radius 3.1 dp) shear
  * along the lattice and across it differs by 1.2 %.
  *
- * mu_ij is symmetric, so pairs of fluid conserve momentum; with `stress` 1 also its moment. A solid
- * has the viscosity of the fluid particle. If a model brings the channel "viscosity" [Pa s], mu_i
- * is the value of that channel instead of the viscosity of the phase.
+ * mu_ij is symmetric, so pairs of fluid conserve momentum; with `stress` 1 also angular momentum. A
+ * solid has the viscosity of the fluid particle. If a model has the channel "viscosity" [Pa s],
+ * mu_i is its value instead of the viscosity of the phase.
  *
  * Walls do not slip: they have the velocity of the tank.
- *   mirror 1 (default): dummies are seen mirrored (friction.h)
+ *   mirror 1 (default): dummies have mirrored velocities (friction.h)
  *   mirror 0, W22: dummies have the velocity of the tank too; a linear profile is 0 at 0.2 dp
  *     behind the wall with a far radius of 3.1 dp, at 0.4 dp with 4.1 dp (with `stress` 1 half)
  *   slip: walls without friction, by the axis of the lab nearest to their normal */
@@ -43,11 +44,11 @@ static const mps_use uses[USES] = {
 typedef struct fields {
     const double *velocity, *density, *viscosity;
     double *acceleration;
-    double *friction;                     /* [n*dim] the share of solids */
-    const int32_t *slippery;              /* NULL: no wall is */
-    double theta;                         /* of mean_viscosity() */
-    bool whole;                           /* pairs act along their line */
-    bool mirror;                          /* dummies are seen mirrored */
+    double *friction;                     /* [n*dim] the part due to solids */
+    const int32_t *slippery;              /* NULL: no slip at any wall */
+    double theta;                         /* exponent of mean_viscosity() */
+    bool whole;                           /* pairs act along their line of centres */
+    bool mirror;                          /* dummies have mirrored velocities */
     double mean[MPS_PHASES * MPS_PHASES]; /* mu of pairs of phases */
 } fields;
 
@@ -61,7 +62,8 @@ static double mean_viscosity(double theta, double a, double b)
     return mps_pow(0.5 * (mps_pow(a, theta) + mps_pow(b, theta)), 1.0 / theta);
 }
 
-/* Axis nearest to the normal of a solid particle; of dummies that of their wall. -1: no normal. */
+/* Axis nearest to the normal of a solid particle; for dummies to that of their wall. -1: no
+ * normal. */
 static inline int wall_axis(const int dim, const mps_view *v, int64_t i)
 {
     const int64_t wall = mps_is_dummy(v, i) ? v->wall_of[i] : i;
@@ -88,7 +90,7 @@ MPS_ROW void find_slippery(const int dim, const mps_view *v, const slips *f, int
 }
 MPS_ROWS(find_slippery_rows, find_slippery, slips)
 
-/* given: the channel "viscosity" is there. */
+/* given: whether the channel "viscosity" exists. */
 MPS_ROW void diffuse(const int dim, const mps_view *v, const fields *f, int64_t i, const bool given)
 {
     if (!mps_is_fluid(v, i)) return;
@@ -100,7 +102,8 @@ MPS_ROW void diffuse(const int dim, const mps_view *v, const fields *f, int64_t 
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
         if (f->slippery && f->slippery[mps_stencil_column(t, p)] > 0) continue;
         const mps_pair q = mps_stencil_pair_dim(dim, t, i, p);
-        const int64_t like = mps_is_fluid(v, q.j) ? q.j : i; /* whose mu j has */
+        /* the particle whose mu is used for j */
+        const int64_t like = mps_is_fluid(v, q.j) ? q.j : i;
         const double w = q.w * (given
                                     ? mean_viscosity(f->theta, f->viscosity[i], f->viscosity[like])
                                     : mu[v->phase[like]]);
@@ -163,9 +166,9 @@ static int diffuse_velocity(mps_stage *s)
 }
 
 /* Limits of a light fluid beside a viscous one, by the viscosities of the phases; the limit of a
- * phase by itself is that of the time control. The whole stress acts along the pair only, and more
- * strongly: steps are stable below lambda/(2 (D + 2) nu), 0.18 dp^2/nu with a far radius of
- * 2.1 dp. */
+ * single phase is that of the time control. With the full stress, pairs act only along their line
+ * of centres, and more strongly: steps are stable below lambda/(2 (D + 2) nu), 0.18 dp^2/nu with a
+ * far radius of 2.1 dp. */
 static int limit_step(mps_stage *s)
 {
     const mps_view *v = s->view;

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Walls stop particles: near the face of a wall a vector loses its part into the wall. Shared by the
- * models that change velocities or positions near walls, and inlined into their rows: a kernel of a
- * device would copy its arguments to memory to hand on where they are. */
+/* Impermeable walls: near the face of a wall the component of a vector into the wall is removed.
+ * Used by the models that change velocities or positions near walls, and inlined into their rows:
+ * otherwise a kernel of a device would copy its arguments to memory to pass their addresses. */
 #ifndef MPS_PHASE_WALLS_H
 #define MPS_PHASE_WALLS_H
 
 #include "helpers.h"
 
-/* In an acute corner the correction for one face points into the other face: repeat. */
+/* In an acute corner the correction for one face points into the other face: iterate. */
 enum { MPS__WALL_TURNS = 4 };
 
-/* Unit normal of wall j. Returns its area; 0: it has no normal. */
+/* Unit normal of wall j. Returns its area; 0: no normal. */
 MPS_ROW double mps__wall_normal(const int dim, const mps_view *view, int64_t j, double n[3])
 {
     const double *area = view->area + j * dim;
@@ -53,9 +53,9 @@ MPS_ROW bool mps__wall_rises(const int dim, const mps_view *view, const mps_pair
     return other->r2 < 2.5 * view->dp * view->dp && rise > 0.25 * view->dp && along > 0;
 }
 
-/* In a concave corner a face extends to the face that rises from it. The wall particles in
- * the corner do not show that: they have one normal for all faces, or the normal of the solid that
- * was added first, or a plate that starts between them hides them. */
+/* In a concave corner a face extends to the face that rises from it. The wall particles in the
+ * corner do not show this: they have one normal for all faces, or the normal of the solid that was
+ * added first, or they are hidden by a plate that begins between them. */
 MPS_ROW bool mps__wall_goes_on(const int dim, const mps_view *view, int64_t i, const mps_pair *wall,
                                const double n[3], double height)
 {
@@ -85,14 +85,15 @@ typedef struct mps__wall_task {
     const double *u;
 } mps__wall_task;
 
-/* Least component of v away from a face: it moves a particle out of the half next to the wall. */
+/* Smallest component of v away from a face: it moves a particle out of the half next to the
+ * wall. */
 static inline double mps__wall_outward(const mps__wall_task *k, double height)
 {
     if (!(height > -k->reach && height < 0.5 * k->reach)) return 0;
     return mps_smaller(k->lift, 0.5 * k->reach - height);
 }
 
-/* Corrects v once for each wall. Returns whether v has changed. */
+/* Corrects v once for each wall. Returns whether v was changed. */
 MPS_ROW bool mps__wall_turn(const int dim, const mps_view *view, const mps__wall_task *k, int64_t i,
                             double v[3])
 {
@@ -113,10 +114,10 @@ MPS_ROW bool mps__wall_turn(const int dim, const mps_view *view, const mps__wall
     return changed;
 }
 
-/* Removes from v [dim] the part that carries fluid particle i into walls nearer than `reach` [m].
- * v is a velocity and u [n*dim] holds the velocities of the walls; or v is a displacement and u is
- * NULL. A particle nearer than reach/2 to a face, or behind its plane (it came over a rim), is
- * moved out by up to `lift` a call. */
+/* Removes from v [dim] the part that moves fluid particle i into walls nearer than `reach` [m]. v
+ * is a velocity and u [n*dim] contains the velocities of the walls; or v is a displacement and u is
+ * NULL. A particle nearer than reach/2 to a face, or behind its plane (it passed over an edge), is
+ * moved out by up to `lift` per call. */
 MPS_ROW void mps__walls_keep_off(const int dim, const mps_view *view, double reach, double lift,
                                  const double *u, int64_t i, double v[3])
 {

@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: z = D^-1 r + P V(P' r). The diagonal D takes care of pressures that change from particle to particle, one multigrid
- * V-cycle on a background grid of cells two to three spacings wide of the smooth ones. */
+/* auxgrid: z = D^-1 r + P V(P' r). The diagonal D reduces residuals that vary from particle to
+ * particle; V, one multigrid V-cycle on a background grid of cells two to three spacings wide,
+ * reduces smooth ones. */
 #include "auxgrid.h"
 #include "builtin.h"
 #include "kernels.h"
 
 typedef struct auxgrid {
-    mps__grid here, there; /* on the host, on a device */
+    mps__grid here, there; /* in the memory of the host, of a device */
     mps__grid *grid;       /* that of the last set-up */
-    double *inverse; /* [n] of the diagonal, in memory of the grid that is free once it is there */
+    /* [n] of the diagonal, in a buffer of the grid that is unused after the set-up */
+    double *inverse;
     int64_t n;
 } auxgrid;
 
 static int create(const mps_allocator *allocator, void **self)
 {
-    const int64_t *whole = *self; /* of tests */
+    const int64_t *whole = *self; /* set by tests */
     auxgrid *a = mps__take(allocator, 1, sizeof *a);
     if (!a) return MPS_PPE_NOMEM;
     *a = (auxgrid){.here = {.allocator = *allocator, .host = *allocator}};
@@ -29,7 +31,7 @@ typedef struct inverting {
     double *inverse;
 } inverting;
 
-/* An empty row is a particle without neighbours, its residual is 0. */
+/* An empty row is a particle without neighbours; its residual is 0. */
 MPS_ROW void invert_row(const int dim, const inverting *f, int64_t i)
 {
     const double d = f->diagonal[i];
@@ -55,7 +57,8 @@ static int find_cells(mps__grid *g, const mps_ppe_problem *problem, const mps__g
     return mps__grid_cells(g, &g->level[0], problem->n) ? 0 : MPS_PPE_NOMEM;
 }
 
-/* Whether the device measures the rows without a wait in between. On many ranks the host joins sums of all ranks each time. */
+/* Whether the device measures the rows without waiting for the host in between. On many ranks the
+ * host reduces the sums over the ranks each time. */
 static bool asks_once(const mps__grid *g, const mps_ppe_problem *problem)
 {
     return g->device && !problem->ranks;
@@ -74,7 +77,7 @@ static int build_grids(mps__grid *g, const mps_ppe_problem *problem, const mps__
     return mps__grid_many(g) ? mps__grid_divide(g) : 0;
 }
 
-/* The grids that are where the equation is. */
+/* The grid in the memory space of the equation. */
 static mps__grid *grid_for(auxgrid *a, const mps_ppe_problem *problem)
 {
     mps__device *d = mps__device_of(problem->parallel);
@@ -163,5 +166,5 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .destroy = destroy,
     .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
     .ranks = 1,
-    .reach = 2.3, /* from the centre of a cell to its corners, the largest is sqrt(3) 1.25 */
+    .reach = 2.3, /* from the centre of a cell to its corners; the largest is sqrt(3) 1.25 */
 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The hierarchy of background grids behind the preconditioner auxgrid. A grid is a list of the cells that hold something, so
- * its size follows the particles and never their bounding box. */
+/* Hierarchy of background grids of the preconditioner auxgrid. A grid lists only the cells that
+ * contain points: its size depends on the number of particles, not on their bounding box. */
 #ifndef MPS_PPE_AUXGRID_H
 #define MPS_PPE_AUXGRID_H
 
@@ -10,60 +10,67 @@
 #include <stdbool.h>
 
 enum {
-    MPS__GRID_BITS =
-        21, /* of a cell's coordinate; what lies further out is put into the last cell */
+    /* of a cell coordinate; points further out are assigned to the last cell */
+    MPS__GRID_BITS = 21,
     MPS__GRID_LEVELS = 22,  /* after 19 halvings four cells are left along each axis */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
-    MPS__GRID_ABOUT = 27,   /* a cell and those about it, in 3-D */
-    MPS__GRID_TURNS = 256,  /* cells whose particles are worth a second thread */
-    MPS__GRID_WHOLE =
-        65536 /* many ranks: cells of a grid from which on each rank works on its own cells only */
+    MPS__GRID_ABOUT = 27,   /* a cell and its neighbours, in 3-D */
+    MPS__GRID_TURNS = 256,  /* cells whose particles justify a second thread */
+    /* many ranks: a grid of at least this many cells is divided among the ranks */
+    MPS__GRID_WHOLE = 65536
 };
 
-/* Room that grows and is kept; its contents are not. */
+/* Buffer that grows and is reused; its contents are not preserved. */
 typedef struct mps__grid_room {
     void *at;
     int64_t bytes;
 } mps__grid_room;
 
-/* Cells of the finer grid that add to each cell, on a device: those of cell c end before end[c], where those of c + 1 begin. */
+/* Restriction list on a device: the finer cells that add to each cell. Those of cell c end before
+ * end[c], where those of cell c + 1 begin. */
 typedef struct mps__grid_adding {
-    int64_t *end;  /* [cells], and room to sum them up */
-    int32_t *from; /* ascending for each */
-    float *part;   /* of what is left of their right side */
+    int64_t *end;  /* [cells], also workspace of the prefix sum */
+    int32_t *from; /* ascending for each cell */
+    float *part;   /* weight of the finer cell's residual */
 } mps__grid_adding;
 
-/* One grid, and how the points above it (particles, or the cells of the finer grid) reach its cells.
+/* One grid, and its interpolation from and to the points above it (particles, or the cells of the
+ * finer grid).
  *
- * Order of the cells: first the `red` ones, whose coordinates have an even sum, then the black ones (a cell's neighbours have
- * the other colour), both by key. A sum over cells, and the direct solution of the last grid, then depends on the set of
- * cells alone, and not on which particle was met first. A sum over particles runs in the order of the particles.
+ * Order of the cells: first the `red` ones, whose coordinates have an even sum, then the black ones
+ * (neighbours along an axis have different colours), both sorted by key. Sums over cells and the
+ * direct solution of the last grid then depend only on the set of cells, not on the order in which
+ * particles were found. A sum over particles runs in the order of the particles.
  *
- * The cells about a cell are numbered by one digit of base three for each axis: 0 the same coordinate, 1 one less, 2 one more. */
+ * The neighbourhood of a cell (3^dim cells, itself included) is numbered by one digit of base three
+ * for each axis: 0 the same coordinate, 1 one less, 2 one more. */
 typedef struct mps__grid_level {
     int64_t points, cells, red;
     mps__grid_room point_room, cell_room, adding_room;
-    int32_t *home; /* [points] cell that holds the point, -1: none */
-    uint8_t *
-        side; /* [points] bit a: which side of its cell the point is nearer to along axis a, 0 below, 1 above */
-    float *
-        share; /* [points << dim] how much a point takes from the cells on that side; 0 or a sum of 1 */
-    int32_t *list; /* [points] the points by cell, in their order in each */
-    int32_t *
-        start; /* [cells + 1] the first in `list` of each cell; of the first grid on a host, of each turn */
+    int32_t *home; /* [points] cell that contains the point, -1: none */
+    /* [points] bit a: which side of its cell the point is nearer to along axis a, 0 below, 1
+     * above */
+    uint8_t *side;
+    /* [points << dim] interpolation weights of the cells on that side; 0 or a sum of 1 */
+    float *share;
+    int32_t *list; /* [points] the points sorted by cell, in their own order within each */
+    /* [cells + 1] first entry of each cell in `list`; on a host, of the first grid: in the order of
+     * `turn` */
+    int32_t *start;
     int64_t *key;   /* [cells] packed coordinates */
-    int32_t *about; /* [cells * 3^dim] the cells about each, `cells` where there is none */
-    int32_t *
-        next; /* [cells * 2 dim] neighbours below and above along each axis, itself where there is none */
-    float *link;     /* [cells * 2 dim] conductances to them, equal from both sides */
-    double *shift;   /* [cells] the rest of the diagonal */
-    double *inverse; /* [cells] of the diagonal, 0 for a cell with nothing */
+    int32_t *about; /* [cells * 3^dim] neighbourhood of each cell, `cells` where there is none */
+    /* [cells * 2 dim] neighbours below and above along each axis, the cell itself where there is
+     * none */
+    int32_t *next;
+    float *link;     /* [cells * 2 dim] conductances to them, equal on both sides */
+    double *shift;   /* [cells] remainder of the diagonal */
+    double *inverse; /* [cells] of the diagonal, 0 for an empty row */
     double *kappa;   /* [cells] mean conductivity of its points */
-    double *count;   /* [cells] particles */
-    double *b,
-        *x; /* [cells + 1] right side and solution of the cycle in progress; the last x, for no cell, is 0 */
-    mps__grid_adding adding; /* on a device, but of the first grid */
-    double *rest;            /* [red] residuals, on a device, but of the last grid */
+    double *count;   /* [cells] number of particles */
+    /* [cells + 1] right side and solution of the cycle; x[cells], of no cell, is 0 */
+    double *b, *x;
+    mps__grid_adding adding; /* on a device, except for the first grid */
+    double *rest;            /* [red] residuals, on a device, except for the last grid */
 } mps__grid_level;
 
 enum { MPS__GRID_DIVIDED_ROOMS = 5 };
@@ -77,7 +84,7 @@ enum {
     MPS__GRID_OWNERS_THERE,
     MPS__GRID_TURNS_THERE,
     MPS__GRID_PACKET,
-    MPS__GRID_HERE, /* from here on memory of the host, whatever the grid has */
+    MPS__GRID_HERE, /* the buffers from here on are on the host, even if the grid is on a device */
     MPS__GRID_COUNTS = MPS__GRID_HERE,
     MPS__GRID_KEYS,
     MPS__GRID_OWNERS,
@@ -98,7 +105,8 @@ enum {
     MPS__GRID_ROOMS
 };
 
-/* Values of cells that a rank sends to others, and cells whose values it gets, in the order of the route. */
+/* Halo exchange of cell values: cells that a rank sends and cells that it receives, in the order of
+ * the route. */
 typedef struct mps__grid_plan {
     mps__grid_room room[4];
     int64_t sends, receives;
@@ -114,90 +122,94 @@ typedef struct mps__grid_owned {
     int32_t *cell;  /* [cells] */
 } mps__grid_owned;
 
-/* A grid that is divided among the ranks: each works on its own cells. */
+/* A grid that is divided among the ranks: each solves its own cells. */
 typedef struct mps__grid_divided {
     mps__grid_room room[MPS__GRID_DIVIDED_ROOMS];
     int32_t *owner; /* [cells] */
     mps__grid_owned owned;
-    int64_t own, own_red; /* own cells, which begin with the red ones */
+    int64_t own, own_red; /* own cells, red ones first */
     int32_t *cell;        /* [own] */
     double *rest;         /* [cells] residuals of red cells */
     int64_t adding;
-    int32_t *add; /* [adding] red cells that own cells of the coarser grid take residuals from */
-    mps__grid_plan ring; /* x of cells that own cells, or points of this rank, look at */
-    mps__grid_plan left; /* rest */
+    /* [adding] red cells whose residuals are restricted to own cells of the coarser grid */
+    int32_t *add;
+    mps__grid_plan ring; /* x of the cells that own cells, or points of this rank, read */
+    mps__grid_plan left; /* residuals */
 } mps__grid_divided;
 
-/* Lists of a rank that has a device, in its memory. */
+/* Lists of a rank in the memory of its device. */
 typedef struct mps__grid_there {
     int64_t *send, *receive; /* parts */
-    int64_t *owned;          /* [cells] of the first grid, as mps__grid_owned has them */
-    int32_t *owner;          /* [cells] of it */
-    double *packet;          /* values on their way to the host or from there */
+    int64_t *owned;          /* [cells] of the first grid, as in mps__grid_owned */
+    int32_t *owner;          /* [cells] of the first grid */
+    double *packet;          /* values copied between host and device */
 } mps__grid_there;
 
-/* Many ranks: each cell of the first grid is owned by the rank that owns its centre, one of a coarser grid by the owner of its first cell.
- * The owner sums the particles of the cell, which it all has, and what they add to the cells about it goes to the owners of these. All
- * ranks have the cells and coefficients of all grids. Of large grids each solves its own cells; the right side of the first small one is
- * collected on all ranks, which do the same with it and all coarser ones. Devices do not divide grids: each solves all of their cells. */
+/* Many ranks. The owner of a cell of the first grid is the rank that owns its centre; the owner of
+ * a coarser cell is the owner of its first finer cell. The owner has all particles of its cells and
+ * sums them; contributions to neighbour cells are sent to their owners. Every rank has the cells
+ * and coefficients of all grids. On large grids each rank solves its own cells. The right side of
+ * the first small grid is collected on all ranks, and each of them solves that grid and all coarser
+ * ones identically. Devices do not divide grids: each solves all cells. */
 typedef struct mps__grid_ranks {
-    mps_ppe_ranks table; /* its `ranks` are 0: alone */
+    mps_ppe_ranks table; /* ranks == 0: one rank */
     mps__grid_room room[MPS__GRID_ROOMS];
     int64_t n;             /* rows of this rank */
-    int64_t columns;       /* and those of other ranks: points of the first grid */
+    int64_t columns;       /* and of other ranks: points of the first grid */
     double *value;         /* [columns] */
     double *entries;       /* [columns] of the rows */
-    int32_t *place;        /* [columns] of a column in the order of the particles */
-    int64_t *bytes;        /* [ranks] of a message */
+    int32_t *place;        /* [columns] index of a column in the order of the particles */
+    int64_t *bytes;        /* [ranks] of each message */
     int64_t *count;        /* [ranks] scratch */
     mps__grid_owned owned; /* cells of the first grid */
-    int32_t *owner;        /* [cells] of it */
-    const int64_t *key;    /* [cells] of it, on the host */
-    const int32_t *about;  /* [cells * 3^dim] the same */
+    int32_t *owner;        /* [cells] of the first grid */
+    const int64_t *key;    /* [cells] of the first grid, on the host */
+    const int32_t *about;  /* [cells * 3^dim] of the first grid, on the host */
     mps__grid_there there;
     double *out, *in;
-    int64_t *send,
-        *receive; /* parts that go to other ranks and come from them, in the order of the route */
+    /* contributions sent to and received from other ranks, in the order of the route */
+    int64_t *send, *receive;
     mps_route route;
     bool connected;
-    int64_t whole; /* cells of a grid from which on it is divided */
-    int divided;   /* levels that are divided, from the first on */
+    int64_t whole; /* cells from which on a grid is divided */
+    int divided;   /* number of divided levels, from the first on */
     mps__grid_divided level[MPS__GRID_LEVELS];
 } mps__grid_ranks;
 
-/* Points of a grid in the order of their cells, on a device. Each array has two halves, of which one is sorted into the other. */
+/* Points of a grid sorted by cell, on a device. Each array has two halves; a sort pass reads one
+ * and writes the other. */
 typedef struct mps__grid_sorted {
     uint64_t *key; /* UINT64_MAX: none */
     int32_t *order;
-    int64_t *number;         /* [points] cells that have begun up to a place */
-    const uint64_t *key_now; /* the half that is in order */
+    int64_t *number;         /* [points] prefix sum of the cells that begin */
+    const uint64_t *key_now; /* the half that is sorted */
     const int32_t *order_now;
 } mps__grid_sorted;
 
-/* What a device tells of a set-up, in one copy; loops gather it there. */
+/* Results of a set-up on a device, downloaded in one copy; loops reduce into it on the device. */
 typedef struct mps__grid_told {
     struct {
         mps_exact sums[2];
         double maxima[5];
-    } look;        /* at the rows */
+    } look;        /* of the matrix rows */
     double square; /* mean of r_ij^2 */
     struct {
         mps_exact sums[3];
         double largest;
     } measure;       /* of conductivities */
-    double cells[2]; /* of the grid that was sorted last: cells, red ones */
+    double cells[2]; /* of the grid sorted last: cells, red cells */
 } mps__grid_told;
 
 typedef struct mps__grid {
-    mps_allocator allocator, host; /* of the arrays; of what ranks keep on the host */
+    mps_allocator allocator, host; /* of the arrays; of the host arrays of ranks */
     const mps_parallel *parallel;
-    mps__device *device; /* whose memory the arrays are in, and where loops run; NULL: here */
+    mps__device *device; /* memory space of the arrays and of the loops; NULL: host */
     int dim;
     bool one; /* one density everywhere */
-    double corner[3], size,
-        per_size; /* corner [cells], edge and 1 / edge of the first grid's cells [m] */
-    double unit;  /* matrix entries times this are of order one */
-    bool laid;    /* corner and size are there */
+    /* corner [cells], edge and 1 / edge of the first grid's cells [m] */
+    double corner[3], size, per_size;
+    double unit; /* matrix entries times this are of order one */
+    bool laid;   /* corner and size are set */
     int levels;
     mps__grid_level level[MPS__GRID_LEVELS];
     int64_t table_size, table_capacity; /* a power of two */
@@ -205,23 +217,25 @@ typedef struct mps__grid {
     int32_t *table_cell; /* [table_size] */
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
-    double *point_kappa; /* [points]; free when all grids are there */
+    double *point_kappa; /* [points]; free for use once all grids are set up */
     mps__grid_room turn_room;
-    int32_t *
-        turn; /* [cells] cells of the first grid as particles meet them; NULL: each turn is that cell */
+    /* [cells] cells of the first grid in the order in which particles meet them; NULL: order of the
+     * cells */
+    int32_t *turn;
     int64_t order_capacity;
-    int32_t *order;           /* [2 * cells] to sort the cells */
+    int32_t *order;           /* [2 * cells] to sort cells */
     mps__grid_room sort_room; /* to sort points, on a device */
     mps__grid_sorted sorted;
     size_t part_capacity; /* bytes */
-    void *
-        parts; /* what the particles of each cell add to the cells about it, or the faces of two densities */
+    /* contributions of the particles of each cell to its neighbourhood, or the faces of two
+     * densities */
+    void *parts;
     double *factor;       /* [direct * direct] L of the last grid's L D L' */
     double *pivot;        /* [direct] 1/D, 0 where D is */
-    double *bad;          /* [levels] whether a diagonal is not finite, on a device */
+    double *bad;          /* [levels] 1 if a diagonal is not finite, on a device */
     mps__grid_told *told; /* on a device */
-    int64_t
-        turns; /* cells of the first grid that particles are summed for: all, or those of this rank */
+    /* cells of the first grid whose particles are summed: all, or those of this rank */
+    int64_t turns;
     mps__grid_ranks ranks;
 } mps__grid;
 
@@ -230,31 +244,31 @@ static inline bool mps__grid_many(const mps__grid *g)
     return g->ranks.table.ranks > 1;
 }
 
-/* A cell and those about it. */
+/* Size of the neighbourhood of a cell, itself included. */
 MPS_ROW int mps__grid_all(const int dim)
 {
     return dim == 2 ? 9 : MPS__GRID_ABOUT;
 }
 
-/* ---- memory (auxgrid_memory.c): it grows and is kept; false or NULL: there is none ---- */
+/* ---- memory (auxgrid_memory.c): grows and is reused; false or NULL: out of memory ---- */
 
 void mps__grid_release(mps__grid *g);
-/* Room to find the cells of so many points. */
+/* Buffers to find the cells of this many points. */
 bool mps__grid_reserve(mps__grid *g, int64_t points);
-/* Room for the points and the cells of a level, whose numbers are known. */
+/* Buffers of the points and the cells of a level, whose numbers are known. */
 bool mps__grid_reserve_points(mps__grid *g, mps__grid_level *l);
 bool mps__grid_reserve_cells(mps__grid *g, mps__grid_level *l);
-/* Room for the residuals of a grid and the lists of the coarser one. */
+/* Buffers of the residuals of a grid and of the restriction list of the coarser one. */
 bool mps__grid_reserve_adding(mps__grid *g, mps__grid_level *fine, mps__grid_level *l);
-/* Room to sort points. */
+/* Workspace to sort points. */
 bool mps__grid_reserve_sorted(mps__grid *g, int64_t points);
 bool mps__grid_reserve_table(mps__grid *g, int64_t size);
 bool mps__grid_reserve_order(mps__grid *g, int64_t cells);
-/* Room for so many bytes in `parts`. */
+/* At least this many bytes in `parts`. */
 bool mps__grid_reserve_parts(mps__grid *g, size_t bytes);
-/* Slots for so many cells. */
+/* Number of slots for this many cells. */
 int64_t mps__grid_table_for(int64_t cells);
-/* Room that is kept, and the same on the host. */
+/* A buffer that is reused; one on the host. */
 void *mps__grid_room_of(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
 void *mps__grid_room_here(mps__grid *g, mps__grid_room *room, int64_t count, size_t size);
 
@@ -272,57 +286,62 @@ static inline bool mps__grid_is_red(int64_t key)
             1) == 0;
 }
 
-/* Keys of the cells from point_key, where the keys then are, each once. Returns their number, -1 when out of memory. */
+/* Replace the keys in point_key by those of the cells, each once. Returns their number, -1 when out
+ * of memory. */
 int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points);
 /* Cells and neighbours of a level from point_key; links are zero. False when out of memory. */
 bool mps__grid_cells(mps__grid *g, mps__grid_level *l, int64_t points);
-/* The second half of it: the cells have been found and counted. */
+/* Second half of mps__grid_cells(): the cells have been found and counted. */
 bool mps__grid_make_cells(mps__grid *g, mps__grid_level *l);
-/* On a host: the points of each cell of a coarser grid. A device has them from the order of the points. */
+/* On a host: sort the points of a coarser grid by cell. A device has them sorted already. */
 void mps__grid_list_cells(const mps__grid *g, mps__grid_level *l);
 
 /* ---- cells on a device (auxgrid_sort.c) ---- */
 
-/* Points in the order of their cells, which are counted into `told` of the device, */
+/* Sort the points by cell and count the cells into `told` on the device. */
 void mps__grid_sort(mps__grid *g, const mps__grid_level *l);
-/* and from there into the level. A maximum is -INFINITY where no row has one. */
+/* Copy these counts to the host and into the level. A maximum is -INFINITY if no row has a
+ * value. */
 void mps__grid_count(const mps__grid *g, mps__grid_level *l);
 static inline void mps__grid_counted(mps__grid_level *l, const double cells[2])
 {
     l->cells = cells[0] > 0 ? (int64_t)cells[0] : 0;
     l->red = cells[1] > 0 ? (int64_t)cells[1] : 0;
 }
-/* Then homes, keys, lists of points, neighbours. */
+/* Set homes, keys, lists of points, neighbours. */
 void mps__grid_number(mps__grid *g, mps__grid_level *l);
 /* As mps__grid_find(), for points whose keys are on the device. */
 int64_t mps__grid_find_there(mps__grid *g, mps__grid_level *l, int64_t points);
 /* Homes of the points of a level among its cells, from the keys of both. */
 void mps__grid_home(mps__grid *g, mps__grid_level *l);
-/* Points of the own cells of a rank by cell, as mps__grid_list() has them on the host. */
+/* Sort the points in the own cells of a rank by cell, as mps__grid_list() does on the host. */
 void mps__grid_list_own(mps__grid *g, mps__grid_level *l);
 
 /* ---- coefficients of the first grid (auxgrid_links.c) ---- */
 
-/* What the rows have in common. */
+/* Data common to all rows. */
 typedef struct mps__grid_common {
     double square;   /* mean of r_ij^2 */
     double least[3]; /* [dim] the largest of -x */
 } mps__grid_common;
 
-/* On a device, all of this section up to the cells of the first grid, which are sorted and counted. Returns 0 or a reason of failure. */
+/* On a device: this whole section up to sorting and counting the cells of the first grid. Returns 0
+ * or a reason of failure. */
 int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem);
-/* Look at all rows. Returns 0, or why they are refused, the same on all ranks: too many unknowns on one, or a diagonal entry. */
+/* Check and sample all rows. Returns 0, or the reason of failure, the same on all ranks: too many
+ * unknowns on one rank, or an invalid diagonal entry. */
 int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common);
-/* Conductivity of each row, from which the cell size follows. */
+/* Conductivity of each row, which determines the cell size. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square);
-/* Corner of the first grid. */
+/* Set the corner of the first grid. */
 void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem, const double *least);
-/* Coordinates of the cells of the first particles into point_key. */
+/* Write the cell coordinates of the first `points` particles to point_key. */
 void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t points);
-/* Coefficients of the first grid and the shares of the particles. Returns 0 or a reason of failure. */
+/* Coefficients of the first grid and interpolation weights of the particles. Returns 0 or a reason
+ * of failure. */
 int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem);
 
-/* Where particles are among the cells of the first grid. */
+/* Positions of particles relative to the cells of the first grid. */
 typedef struct mps__grid_positions {
     const double *x;
     double corner[3], per_size;
@@ -344,35 +363,38 @@ MPS_ROW double mps__grid_position(const int dim, const mps__grid_positions *p, i
     return u < most ? u : most;
 }
 
-/* Links of the first grid from the pairs of particles, for more than one density (auxgrid_wires.c). Returns 0 or a reason of failure. */
+/* Links of the first grid from the pairs of particles, for several densities (auxgrid_wires.c).
+ * Returns 0 or a reason of failure. */
 int mps__grid_wires(mps__grid *g, const mps_ppe_problem *problem);
 
 /* ---- coarser grids (auxgrid_coarse.c) ---- */
 
-/* All of them. False when out of memory. */
+/* Set up all coarser grids. False when out of memory. */
 bool mps__grid_coarsen(mps__grid *g);
-/* On a device: right side of level k from the residuals of the finer one. */
+/* On a device: right side of level k, restricted from the residuals of the finer one. */
 void mps__grid_gather(const mps__grid *g, int k);
 
 /* ---- transfer (auxgrid_transfer.c) ---- */
 
-/* Cells on the side that a point is nearer to, as numbers about its cell: [side][corner]. */
+/* Cells on the side that a point is nearer to, as numbers in the neighbourhood: [side][corner]. */
 extern const uint8_t mps__grid_corner[8][8];
-/* Number of a cell about its neighbour: each step the other way. */
+/* Number of a cell in the neighbourhood of its neighbour: each step reversed. */
 extern const uint8_t mps__grid_opposite[MPS__GRID_ABOUT];
 
-/* Particles by cell of the first grid. False when out of memory. */
+/* Sort the particles by cell of the first grid. False when out of memory. */
 bool mps__grid_list(mps__grid *g);
-/* Shares and sides of the particles, whose shifts take the place of their conductivities in point_kappa. */
+/* Interpolation weights and sides of the particles. Their shifts replace their conductivities in
+ * point_kappa. */
 void mps__grid_share_particles(mps__grid *g, const mps_ppe_problem *problem);
-/* The same of the cells of the finer grid. */
+/* Interpolation weights and sides of the cells of the finer grid. */
 void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
-/* Sum the values [n] of the particles into the right side of the first grid. Returns 0 or a reason of failure. */
+/* Restrict the values [n] of the particles to the right side of the first grid. Returns 0 or a
+ * reason of failure. */
 int mps__grid_restrict(mps__grid *g, const double *values, double scale);
 
 /* ---- many ranks (auxgrid_ranks.c); all return 0 or a reason of failure ---- */
 
-/* Parts that go to other ranks, and that come from them. */
+/* Number of contributions to other ranks, and from them. */
 static inline int64_t mps__grid_sent(const mps__grid_ranks *r)
 {
     int64_t sum = 0;
@@ -386,30 +408,35 @@ static inline int64_t mps__grid_received(const mps__grid_ranks *r)
     return sum;
 }
 
-/* Begin with an equation, on one rank or many. */
+/* Prepare for an equation, on one rank or many. */
 int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem);
 void mps__grid_ranks_release(mps__grid *g);
-/* Room that is kept: MPS__GRID_VALUES .. of the grid, from MPS__GRID_HERE on of the host. */
+/* A reused buffer: MPS__GRID_VALUES .. in the memory of the grid, from MPS__GRID_HERE on in that of
+ * the host. */
 void *mps__grid_ranks_room(mps__grid *g, int which, int64_t count, size_t size);
-/* Cells of the first grid and their owners, after mps__grid_lay(). Conductivities and numbers of entries of all columns. */
+/* Cells of the first grid and their owners, after mps__grid_lay(); conductivities and numbers of
+ * entries of all columns. */
 int mps__grid_ranks_cells(mps__grid *g, const mps_ppe_problem *problem);
-/* Values [n] of the rows into `value`, and those of the other columns. */
+/* Copy the values [n] of the rows to `value` and exchange those of the other columns. */
 int mps__grid_ranks_share(mps__grid *g, const double *values);
-/* What particles of one rank add to cells of another, into `parts`. */
+/* Exchange the contributions of particles to cells of other ranks, in `parts`. */
 int mps__grid_ranks_exchange(mps__grid *g);
-/* Values of cells: those of each rank's own cells to all ranks. They stand in MPS__GRID_IN in the order of `owned`, all of a cell together. */
+/* Collect the values of all cells from their owners on all ranks, into MPS__GRID_IN in the order of
+ * `owned`, all values of a cell together. */
 int mps__grid_ranks_collect(mps__grid *g, const mps__grid_owned *owned, int arrays,
                             double *const *array);
 
 /* ---- many ranks with a device each (auxgrid_ranks_there.c) ---- */
 
-/* Cells of the first grid from the keys of all ranks, as mps__grid_cells() makes them, and homes of all columns. Keys and neighbours of the
- * cells are copied to the host, which finds the owners. Returns 0 or a reason of failure. */
+/* Cells of the first grid from the keys of all ranks, as mps__grid_cells() makes them, and homes of
+ * all columns. Copies keys and neighbours of the cells to the host, which finds the owners. Returns
+ * 0 or a reason of failure. */
 int mps__grid_cells_there(mps__grid *g, const mps_ppe_problem *problem, const int64_t *key,
                           int64_t keys);
 /* Copy owners and lists to the device. Returns 0 or a reason of failure. */
 int mps__grid_owners_go(mps__grid *g);
-/* Copy values at places of several arrays to the host, all of a place together, and back. place: [count] on the device */
+/* Copy the values at given indices of several arrays to the host, all values of an index together,
+ * and back. place: [count] on the device */
 void mps__grid_come(mps__grid *g, const int64_t *place, int64_t count, int arrays,
                     double *const *array, double *values);
 void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,
@@ -417,19 +444,19 @@ void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,
 
 /* ---- divided grids (auxgrid_divided.c) ---- */
 
-/* After all grids are there. */
+/* Divide large grids, after all grids are set up. */
 int mps__grid_divide(mps__grid *g);
 /* Free the routes; no grid is divided. */
 void mps__grid_undivide(mps__grid *g);
 void mps__grid_divided_release(mps__grid *g);
-/* Values of the cells of a plan from their owners. */
+/* Halo exchange of the values of the cells of a plan. */
 int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values);
 
 /* ---- the last grid (auxgrid_last.c) ---- */
 
-/* Factors of its matrix. */
+/* Factorise its matrix. */
 void mps__grid_factorise_last(mps__grid *g);
-/* Its x from its b. */
+/* Solve for x from b. */
 void mps__grid_solve_last(const mps__grid *g);
 
 /* ---- cycle (auxgrid_cycle.c) ---- */
@@ -439,7 +466,7 @@ bool mps__grid_factorise(mps__grid *g);
 /* One V-cycle from b to x of the first grid. Returns 0 or a reason of failure. */
 int mps__grid_cycle(mps__grid *g);
 
-/* How points take values from the cells of a level. */
+/* Interpolation from the cells of a level to points. */
 typedef struct mps__grid_points {
     const int32_t *home, *about;
     const uint8_t *side;
@@ -452,7 +479,7 @@ static inline mps__grid_points mps__grid_points_of(const mps__grid_level *l)
     return (mps__grid_points){l->home, l->about, l->side, l->share, l->x};
 }
 
-/* Value of a point from the cells around it. */
+/* Interpolated value of a point. */
 MPS_ROW double mps__grid_value(const int dim, const mps__grid_points *p, int64_t point)
 {
     const int corners = 1 << dim;

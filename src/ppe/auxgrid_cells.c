@@ -1,20 +1,22 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the cells that hold something. The host finds them through a hash table of their coordinates, a device by sorting the points. */
+/* auxgrid: the cells that contain points. The host finds them with a hash table of their
+ * coordinates, a device by sorting the points. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <string.h>
 
-/* Slot of a key, or the free one where it belongs. */
+/* Slot of a key, or the free slot where it is inserted. */
 static int64_t slot(const mps__grid *g, int64_t key)
 {
     uint64_t hash = (uint64_t)key * 0x9e3779b97f4a7c15u;
-    /* high bits, which all coordinates have a part in; low ones for very large tables */
+    /* high bits, which depend on all coordinates; low ones for very large tables */
     int64_t s = (int64_t)(hash >> 40 ^ hash >> 20) & (g->table_size - 1);
     while (g->table_key[s] != key && g->table_key[s] != -1) s = (s + 1) & (g->table_size - 1);
     return s;
 }
 
-/* Homes by order of appearance; counts cells and red ones. False: the table is too small. */
+/* Assign points to cells, numbered by order of appearance; count cells and red cells. False: the
+ * table is too small. */
 static bool fill_table(mps__grid *g, mps__grid_level *l)
 {
     const int64_t all = mps__grid_table_for(l->points);
@@ -23,9 +25,8 @@ static bool fill_table(mps__grid *g, mps__grid_level *l)
     l->cells = l->red = 0;
     for (int64_t i = 0; i < l->points; i++) {
         int64_t key = g->point_key[i];
-        l->home[i] = i > 0 && key == g->point_key[i - 1]
-                         ? l->home[i - 1]
-                         : -1; /* particles come sorted along cells */
+        /* consecutive particles are mostly in the same cell */
+        l->home[i] = i > 0 && key == g->point_key[i - 1] ? l->home[i - 1] : -1;
         if (key < 0 || l->home[i] >= 0) continue;
         int64_t s = slot(g, key);
         if (g->table_key[s] < 0) {
@@ -39,7 +40,7 @@ static bool fill_table(mps__grid *g, mps__grid_level *l)
     return true;
 }
 
-/* The table starts with room for a few points in each cell; where they are fewer it grows, and stays so. */
+/* The initial table assumes a few points in each cell; with fewer it grows and keeps its size. */
 static bool find_cells(mps__grid *g, mps__grid_level *l)
 {
     while (!fill_table(g, l))
@@ -49,7 +50,7 @@ static bool find_cells(mps__grid *g, mps__grid_level *l)
 
 enum { LOW_DIGIT = 11 }; /* bits; of a coordinate, the rest is the high digit */
 
-/* Sort cells in `from` by one digit of their keys into `to`, which keeps the order of equal ones. */
+/* One pass of a radix sort: sort cells in `from` by one digit of their keys into `to`, stable. */
 static void sort_digit(const int64_t *key, int shift, int bits, int64_t cells, const int32_t *from,
                        int32_t *to)
 {
@@ -64,7 +65,8 @@ static void sort_digit(const int64_t *key, int shift, int bits, int64_t cells, c
     for (int64_t c = 0; c < cells; c++) to[first[key[from[c]] >> shift & mask]++] = from[c];
 }
 
-/* Cells in order of their keys, one of the two halves of `order`. Digits that all cells share cost nothing. */
+/* Cells sorted by key, in one of the two halves of `order`. Digits that are equal in all keys are
+ * skipped. */
 static const int32_t *sort_keys(const mps__grid *g, const int64_t *key, int64_t cells)
 {
     int32_t *from = g->order, *to = g->order + g->order_capacity;
@@ -86,7 +88,7 @@ static const int32_t *sort_keys(const mps__grid *g, const int64_t *key, int64_t 
 
 typedef struct renumbering {
     int32_t *home;
-    const int32_t *number; /* of the cells, by order of appearance */
+    const int32_t *number; /* new number of each cell, by order of appearance */
 } renumbering;
 
 MPS_ROW void renumber_row(const int dim, const renumbering *f, int64_t i)
@@ -96,7 +98,7 @@ MPS_ROW void renumber_row(const int dim, const renumbering *f, int64_t i)
 }
 MPS__LOOP_ANY(renumber_rows, renumber_row, renumbering)
 
-/* Keys of cells in order of appearance replace those of the points. */
+/* Keys of cells in order of appearance replace those of the points in point_key. */
 static void list_keys(mps__grid *g)
 {
     for (int64_t s = 0; s < g->table_size; s++)
@@ -112,7 +114,7 @@ int64_t mps__grid_find(mps__grid *g, mps__grid_level *l, int64_t points)
     return l->cells;
 }
 
-/* Number the red cells first, and cells of a colour by key. */
+/* Number the red cells first, and the cells of each colour by key. */
 static void sort_cells(mps__grid *g, mps__grid_level *l)
 {
     const int64_t *key = g->point_key;
@@ -148,7 +150,6 @@ static void find_neighbours(const mps__grid *g, mps__grid_level *l)
         }
 }
 
-/* What a loop over cells sees of them. */
 typedef struct around {
     int64_t cells;
     const int32_t *next;
@@ -156,7 +157,8 @@ typedef struct around {
     double *b, *x;
 } around;
 
-/* Cells about a cell, each found as the neighbour of one that is a step nearer. The last row is the cell that stands for none. */
+/* Neighbourhood of a cell: each neighbour is found from one that is a step nearer. The last row is
+ * the placeholder for missing cells. */
 MPS_ROW void find_about(const int dim, const around *f, int64_t c)
 {
     const int all = mps__grid_all(dim), sides = 2 * dim;
@@ -178,7 +180,7 @@ MPS_ROW void find_about(const int dim, const around *f, int64_t c)
 }
 MPS__LOOP(cells_about, find_about, around)
 
-/* Number the cells, and find the neighbours of each through the table. */
+/* Number the cells and find their neighbours with the table. */
 static bool number_cells(mps__grid *g, mps__grid_level *l)
 {
     if (!mps__grid_reserve_order(g, l->cells)) return false;

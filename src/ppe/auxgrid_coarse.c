@@ -1,20 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the coarser grids, where two cells become one along each axis. On a device a coarse cell gathers what finer ones add to it on the host, in
- * the same order. */
+/* auxgrid: coarser grids, which merge two cells into one along each axis. On a device a coarse cell
+ * sums the contributions of the finer cells, in the order in which the host adds them. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include "scan.h"
 
 /* ---- cells ---- */
 
-/* What a loop over the cells of the finer grid sees. */
 typedef struct placing {
     const int64_t *key;
     const float *link;
     int64_t *to;
 } placing;
 
-/* Cells without links are solved on their own grid and have no coarser one. */
+/* Cells without links are solved on their own grid and are not coarsened. */
 MPS_ROW void place_row(const int dim, const placing *f, int64_t c)
 {
     bool linked = false;
@@ -28,19 +27,18 @@ MPS__LOOP(place_rows, place_row, placing)
 
 /* ---- coefficients ---- */
 
-/* What a loop over coarse cells sees. */
 typedef struct merging {
     const double *shift, *kappa, *count; /* of the finer grid */
     const float *link;
     const int32_t *next;
-    const int32_t *home, *list, *start; /* its cells as points */
+    const int32_t *home, *list, *start; /* its cells as points of the coarse grid */
     const int32_t *to_next;
     float *to_link;
     double *to_shift, *to_kappa, *to_count;
 } merging;
 
-/* Between a cell and the one above it along an axis. The wires that cross between coarse cells are as many as those between fine ones, and half
- * as long in cells. */
+/* Conductance between a cell and the one above it along an axis. As many edges cross between coarse
+ * cells as between fine ones; in cells they are half as long. */
 MPS_ROW float link_up(const int dim, const merging *f, int32_t below, int32_t above, int axis)
 {
     float sum = 0;
@@ -92,18 +90,17 @@ static void from_finer(mps__grid *g, const mps__grid_level *fine, mps__grid_leve
     mps__grid_share_cells(g, fine, l);
 }
 
-/* ---- who adds to a coarse cell, on a device ---- */
+/* ---- restriction lists, on a device ---- */
 
-/* What a loop over coarse cells sees. */
 typedef struct listing {
     mps__grid_adding list;
     const int32_t *about, *start, *points;
     const uint8_t *side;
     const float *share;
-    int64_t cells, red; /* coarse ones; finer ones that have a residual */
+    int64_t cells, red; /* coarse cells; finer cells that have a residual */
 } listing;
 
-/* The corner at which a point adds to the cell in a direction from its own; -1: none. */
+/* The corner at which a point adds to the neighbour cell in a direction; -1: none. */
 MPS_ROW int corner_to(const int dim, const uint8_t *side, int64_t point, int direction)
 {
     const uint8_t *corner = mps__grid_corner[side[point]];
@@ -127,7 +124,7 @@ MPS_ROW void count_adding(const int dim, const listing *f, int64_t c)
 }
 MPS__LOOP(count_rows, count_adding, listing)
 
-/* Into its place among those of before, which are ascending. */
+/* Insert into the ascending list of the entries so far. */
 MPS_ROW void insert(const mps__grid_adding *l, int64_t begin, int64_t at, int32_t from, float part)
 {
     for (; at > begin && l->from[at - 1] > from; at--) {
@@ -191,7 +188,6 @@ bool mps__grid_coarsen(mps__grid *g)
 
 /* ---- a cycle ---- */
 
-/* What loops over cells see of those that add to them. */
 typedef struct gathering {
     mps__grid_adding list;
     const double *rest;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: inverse diagonals and the V-cycle. Sweeps down go red, black and sweeps up black, red, so that the cycle is a symmetric operator. */
+/* auxgrid: inverse diagonals and the V-cycle. Sweeps before the coarser grid relax red, then black
+ * cells, sweeps after it black, then red ones: the cycle is a symmetric operator. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <math.h>
@@ -15,7 +16,7 @@ typedef struct diagonals {
     double *inverse;
 } diagonals;
 
-/* The maximum: whether a diagonal is not finite. */
+/* Maximum: 1 if a diagonal is not finite. */
 MPS_ROW void invert_row(const int dim, const diagonals *f, int64_t c, double *bad)
 {
     double d = f->shift[c];
@@ -25,7 +26,7 @@ MPS_ROW void invert_row(const int dim, const diagonals *f, int64_t c, double *ba
 }
 MPS__VALUES(invert_rows, invert_row, diagonals, 0, 1)
 
-/* What a device says of all grids comes in one copy. */
+/* The results of all grids are downloaded in one copy. */
 static bool invert_there(const mps__grid *g)
 {
     double bad[MPS__GRID_LEVELS] = {0};
@@ -61,7 +62,7 @@ bool mps__grid_factorise(mps__grid *g)
 
 /* ---- cycle ---- */
 
-/* What loops over the cells of a grid see; each uses its own. */
+/* Arguments of loops over the cells of a grid. */
 typedef struct cells {
     const int32_t *next;
     const float *link;
@@ -83,13 +84,13 @@ static cells cells_of(const mps__grid_level *l)
                    .red = l->red};
 }
 
-/* A loop over cells, which do next to nothing each. */
+/* A loop over cells that do little work each. */
 static void run(const mps__grid *g, const mps__loop *loop, int64_t count, const cells *f)
 {
     mps__loop_run_cheap(g->parallel, loop, g->dim, count, f);
 }
 
-/* What the neighbours of a cell pull it to. */
+/* Sum of link * x over the neighbours of a cell. */
 MPS_ROW double pull(const int dim, const cells *f, int64_t c)
 {
     const int32_t *next = f->next + c * 2 * dim;
@@ -110,7 +111,7 @@ MPS_ROW void relax_row(const int dim, const cells *f, int64_t i)
 }
 MPS__LOOP(relax_rows, relax_row, cells)
 
-/* One colour: each cell solved for itself. */
+/* Relax the cells of one colour. */
 static void relax(const mps__grid *g, const mps__grid_level *l, int64_t from, int64_t to)
 {
     cells f = cells_of(l);
@@ -118,7 +119,7 @@ static void relax(const mps__grid *g, const mps__grid_level *l, int64_t from, in
     run(g, &relax_rows, to - from, &f);
 }
 
-/* Black cells: read at missing neighbours, times zero. */
+/* Black cells are zeroed: they are read at missing neighbours, with a factor of zero. */
 MPS_ROW void begin_row(const int dim, const cells *f, int64_t c)
 {
     (void)dim;
@@ -145,7 +146,7 @@ static void sweep_up(const mps__grid *g, const mps__grid_level *l)
     }
 }
 
-/* Add a value to the 2^dim corners about a point. */
+/* Add a value to the 2^dim corners around a point. */
 static inline void spread_over(const mps__grid_level *l, const int corners, int64_t point,
                                double value)
 {
@@ -163,7 +164,7 @@ static inline void spread(const mps__grid_level *l, int dim, int64_t point, doub
         spread_over(l, 8, point, value);
 }
 
-/* What is left of the right side of a cell. */
+/* Residual of a cell. */
 MPS_ROW double rest_of(const int dim, const cells *f, int64_t c)
 {
     return f->b[c] + pull(dim, f, c) - f->x[c] / f->inverse[c];
@@ -175,7 +176,7 @@ MPS_ROW void rest_row(const int dim, const cells *f, int64_t c)
 }
 MPS__LOOP(rest_rows, rest_row, cells)
 
-/* Grid k on a device to the next one. */
+/* Restrict the residual of grid k to the next one, on a device. */
 static void restrict_there(const mps__grid *g, int k)
 {
     cells f = cells_of(&g->level[k]);
@@ -185,7 +186,8 @@ static void restrict_there(const mps__grid *g, int k)
     mps__grid_gather(g, k + 1);
 }
 
-/* What is left of the right side, to the next grid. The black cells were solved last: only red ones have a residual. */
+/* Restrict the residual to the next grid. The black cells were relaxed last: only red cells have a
+ * residual. */
 static void restrict_residual(const mps__grid *g, const mps__grid_level *fine,
                               const mps__grid_level *l)
 {
@@ -210,7 +212,7 @@ static void correct(const mps__grid *g, const mps__grid_level *fine, const mps__
     run(g, &correct_rows, fine->cells, &f);
 }
 
-/* ---- divided grids: the same for the own cells, with the values of the others from their owners ---- */
+/* ---- divided grids: own cells, with a halo exchange of the others ---- */
 
 MPS_ROW void begin_own(const int dim, const cells *f, int64_t k)
 {
@@ -236,7 +238,7 @@ MPS_ROW void correct_own(const int dim, const cells *f, int64_t k)
 }
 MPS__LOOP(correct_listed, correct_own, cells)
 
-/* Own cells of a level, from one of them on. */
+/* Own cells of a level, from number `from` on. */
 static cells own_cells(const mps__grid *g, int k, int64_t from)
 {
     const mps__grid_divided *d = &g->ranks.level[k];
@@ -247,7 +249,7 @@ static cells own_cells(const mps__grid *g, int k, int64_t from)
     return f;
 }
 
-/* Own cells of one colour, then their values for other ranks. */
+/* Relax the own cells of one colour, then exchange their values. */
 static int relax_colour(mps__grid *g, int k, bool red)
 {
     mps__grid_divided *d = &g->ranks.level[k];
@@ -276,7 +278,8 @@ static int sweep_up_own(mps__grid *g, int k)
     return reason;
 }
 
-/* The terms of an own coarse cell in their order; what is summed for others is not used. */
+/* An own coarse cell adds its terms in their usual order; sums of other ranks' cells are not
+ * used. */
 static int restrict_own(mps__grid *g, int k)
 {
     mps__grid_divided *d = &g->ranks.level[k];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid on many ranks: which cells of a large grid a rank works on, and which it needs of others. All ranks know the cells and their owners
- * alike; a rank asks the owners for the cells that it needs. */
+/* auxgrid on many ranks: the own cells of a rank on a large grid, and the cells that it needs from
+ * others. All ranks know all cells and their owners; a rank requests the cells that it needs from
+ * their owners. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <string.h>
 
-enum { SEND, RECEIVE, OUT, IN };              /* rooms of a plan */
-enum { OWNERS, OWNED, RESTS, ADDED, FIRSTS }; /* rooms of a grid */
+enum { SEND, RECEIVE, OUT, IN };              /* buffers of a plan */
+enum { OWNERS, OWNED, RESTS, ADDED, FIRSTS }; /* buffers of a grid */
 
 /* ---- plans ---- */
 
@@ -53,7 +54,8 @@ int mps__grid_plan_share(mps__grid *g, mps__grid_plan *p, double *values)
     return 0;
 }
 
-/* Needed cells of other ranks, by rank; their numbers into `count`. @return ranks that own some, into `to` and the begin of `count` */
+/* List the needed cells of other ranks by rank, their numbers into `count`. @return number of
+ * owners, listed in `to` and at the begin of `count` */
 static int32_t list_needed(mps__grid *g, mps__grid_plan *p, const mps__grid_divided *d,
                            const uint8_t *need, int32_t *to)
 {
@@ -71,7 +73,7 @@ static int32_t list_needed(mps__grid *g, mps__grid_plan *p, const mps__grid_divi
     return owners;
 }
 
-/* Ask the owners along `asking`; what they are asked for goes the other way. */
+/* Send requests along `asking`; the requested values are sent the other way. */
 static int answer(mps__grid *g, mps__grid_plan *p, const mps_route *asking)
 {
     const mps_ppe_ranks *t = &g->ranks.table;
@@ -112,7 +114,7 @@ static int make_plan(mps__grid *g, mps__grid_plan *p, const mps__grid_divided *d
 
 /* ---- cells ---- */
 
-/* Coarse cells belong to the owner of their first cell. */
+/* The owner of a coarse cell is the owner of its first finer cell. */
 static int find_owners(mps__grid *g, int k)
 {
     mps__grid_divided *d = &g->ranks.level[k];
@@ -153,7 +155,7 @@ static void mark_corners(const mps__grid *g, const mps__grid_level *l, int64_t p
         need[l->about[(int64_t)l->home[point] * all + mps__grid_corner[l->side[point]][k]]] = 1;
 }
 
-/* Cells beside the own ones, and those that own points take their values from. */
+/* Mark the neighbours of own cells and the cells that own points interpolate from. */
 static void mark_ring(const mps__grid *g, int k, uint8_t *need)
 {
     const mps__grid_divided *d = &g->ranks.level[k];

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the last grid, of few cells, is solved directly. On a device a group of threads factorises and solves it together. */
+/* auxgrid: direct solution of the last grid, which has few cells. On a device a group of threads
+ * factorises and solves it. */
 #include "auxgrid.h"
 
-static const double no_level =
-    1e-10; /* share of the diagonal below which a pivot belongs to a constant pressure */
+/* fraction of the diagonal below which a pivot belongs to a constant pressure */
+static const double no_level = 1e-10;
 
 /* ---- factors ---- */
 
@@ -32,7 +33,8 @@ MPS_ROW double pivot_of(double d, double whole)
     return d > no_level * whole ? 1 / d : 0;
 }
 
-/* L D L' in place of the lower triangle. A component without a level keeps one pivot of zero: its last cell is held. */
+/* L D L' overwrites the lower triangle. A component without pressure datum has one zero pivot: the
+ * x of its last cell is 0. */
 static void factorise(const matrix *m)
 {
     const int64_t n = m->cells;
@@ -53,7 +55,8 @@ static void factorise(const matrix *m)
     }
 }
 
-/* The host reads the lower triangle alone. The upper one becomes the same where threads of a device read along rows. */
+/* The host uses the lower triangle alone. It is mirrored to the upper one, which threads of a
+ * device read along rows. */
 static void factorise_both(const matrix *m)
 {
     const int64_t n = m->cells;
@@ -63,8 +66,9 @@ static void factorise_both(const matrix *m)
 }
 
 #ifdef MPS_DEVICE
-/* The same terms in the same order for each entry: one column after the other goes into all that are left. A thread has columns of the upper triangle,
- * where L_ij D_j is until all are there; what is left of a diagonal is where its pivot will be. */
+/* The terms of each entry, in the order of the host: each column is subtracted from all remaining
+ * ones. A thread owns columns of the upper triangle, which stores L_ij D_j until the factorisation
+ * is complete; the reduced diagonal is stored where the pivot will be. */
 static void factorise_together(const matrix *m, int64_t lane, bool any)
 {
     const int64_t n = any ? m->cells : 0;
@@ -103,7 +107,6 @@ void mps__grid_factorise_last(mps__grid *g)
 
 /* ---- solution ---- */
 
-/* What the solution sees. */
 typedef struct last {
     int64_t cells;
     const double *factor, *pivot, *b;
@@ -128,7 +131,8 @@ static void solve(const last *f)
 }
 
 #ifdef MPS_DEVICE
-/* The same terms in the same order for each cell: one unknown after the other goes into all that are left. Rows of the upper triangle are columns of L. */
+/* The terms of each cell, in the order of the host: each unknown is subtracted from all remaining
+ * ones. Rows of the upper triangle are columns of L. */
 static void solve_together(const last *f, int64_t lane, bool any)
 {
     const int64_t n = any ? f->cells : 0;

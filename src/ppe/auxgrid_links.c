@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: cell size and place of the cells of the first grid, and conductances between them for one density. */
+/* auxgrid: size and position of the first grid, and conductances between its cells for one
+ * density. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include "loop.h"
@@ -8,13 +9,13 @@
 #include <string.h>
 
 enum { FEW_ENTRIES = 4, SAMPLE = 16 };
-static const double one_density =
-    4; /* arithmetic over harmonic mean of the conductivities, below which there is one */
+/* arithmetic over harmonic mean of the conductivities; below it there is one density */
+static const double one_density = 4;
 static const double stiffer = 1.5; /* iterations for 1, 1.15, 1.3, 1.5, 1.8: 14, 13.5, 13, 13, 13 */
 
-/* ---- what the rows have in common ---- */
+/* ---- data common to all rows ---- */
 
-/* What a look at the rows sees. */
+/* Arguments of the loop that checks and samples rows. */
 typedef struct looking {
     const int64_t *row;
     const int32_t *col;
@@ -24,13 +25,16 @@ typedef struct looking {
     bool every;    /* all rows are sampled */
 } looking;
 
-/* Sums: of k_ij r_ij^2, of k_ij of the sample. Maxima: whether a diagonal entry is not finite, whether one is negative, -x along each axis. */
+/* Sums: of k_ij r_ij^2, of k_ij of the sample. Maxima: whether a diagonal entry is not finite,
+ * whether one is negative, -x along each axis. */
 enum { SQUARES, CONDUCTANCES, SUMS, BAD = 0, NEGATIVE, LEAST, MAXIMA = 5 };
 
-/* [dp] Walls are on planes between places: rounding does not decide on which side. */
+/* [dp] Walls are on planes between sampling positions, so that rounding does not decide on the
+ * side. */
 static const double rounding = 1e-6;
 
-/* One place of SAMPLE, on each line along an axis. A function of the place: the numbers of rows depend on the rank. */
+/* One position of SAMPLE, on each line along an axis. It depends on the position, since the numbers
+ * of rows depend on the rank. */
 MPS_ROW bool is_sampled(const int dim, const looking *f, int64_t i)
 {
     const int64_t step[3] = {1, 5, 7};
@@ -68,7 +72,7 @@ MPS_ROW void look_row(const int dim, const looking *f, int64_t i, double *values
 }
 MPS__VALUES(look_rows, look_row, looking, SUMS, MAXIMA)
 
-/* Over all ranks; why they are refused. */
+/* Reduce over all ranks. Returns a reason of failure. */
 static int add_up(const mps_ppe_problem *problem, mps_exact *sums, double *found)
 {
     double refused[3] = {found[BAD], found[NEGATIVE], mps__columns(problem) >= INT32_MAX};
@@ -88,7 +92,8 @@ static looking looking_of(const mps_ppe_problem *problem)
                      .per_dp = 1 / problem->dp};
 }
 
-/* The mean of r_ij^2 is from a sample of the rows, which all have the same kernel, or from all if the sample has nothing. */
+/* The mean of r_ij^2 is from a sample of the rows, which all have the same kernel, or from all rows
+ * if the sample is empty. */
 int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common)
 {
     looking f = looking_of(problem);
@@ -108,16 +113,17 @@ int mps__grid_look(const mps_ppe_problem *problem, mps__grid_common *common)
     return 0;
 }
 
-/* What a loop over rows sees; each uses its own. */
+/* Arguments of loops over rows. */
 typedef struct rows {
     const int64_t *row;
     const double *diagonal, *shift;
-    double square;           /* mean of r_ij^2, */
-    const double *squared;   /* or where a device has it */
-    double *kappa, *entries; /* out; entries NULL: not wanted */
+    double square;           /* mean of r_ij^2 */
+    const double *squared;   /* the same on a device, or NULL */
+    double *kappa, *entries; /* out; entries NULL: not requested */
 } rows;
 
-/* Sums: of kappa, of its inverse, of rows; the maximum: kappa. A lone pair at the end of the kernel says little. */
+/* Sums: of kappa, of its inverse, of rows; maximum: kappa. A single pair at the end of the kernel
+ * has little weight. */
 MPS_ROW void measure_row(const int dim, const rows *f, int64_t i, double *values)
 {
     const int64_t entries = f->row[i + 1] - f->row[i];
@@ -147,7 +153,8 @@ static void take_measure(mps__grid *g, const mps_ppe_problem *problem, const mps
     g->per_size = 1 / g->size;
 }
 
-/* Sums of k_ij r_ij^2 of all rows, the inverse density but for a factor that full rows share, and whether it is the same everywhere. */
+/* Sums of k_ij r_ij^2 of each row (the inverse density up to a factor common to full rows), and
+ * whether the density is uniform. */
 void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double square)
 {
     const rows f = {.row = problem->row,
@@ -164,10 +171,11 @@ void mps__grid_measure(mps__grid *g, const mps_ppe_problem *problem, double squa
     take_measure(g, problem, sums, most);
 }
 
-/* The corner is below the least particle and has few places: odd multiples of a quarter of the range of coordinates. So the cells
- * stand still while particles move, and the same cells merge until four are left along each axis; so few are solved directly.
- * For a tank at the origin the corner changes place only if the tank is moved by a quarter of the range. Its first cells begin
- * half a spacing before its walls, which takes fewer iterations than cells that begin at them. */
+/* The corner is below the lowest particle, at odd multiples of a quarter of the range of
+ * coordinates. So the cells do not move while particles move, and the same cells merge until four
+ * are left along each axis; so few are solved directly. For a tank at the origin the corner changes
+ * only if the tank moves by a quarter of the range. Its first cells begin half a spacing before its
+ * walls, which takes fewer iterations than cells that begin at them. */
 void mps__grid_lay(mps__grid *g, const mps_ppe_problem *problem, const double *least)
 {
     const double part = 1 << (MPS__GRID_BITS - 1), before = 0.5 * problem->dp * g->per_size;
@@ -195,7 +203,7 @@ void mps__grid_place(mps__grid *g, const mps_ppe_problem *problem, int64_t point
                         &(placing){mps__grid_positions_of(g, problem), g->point_key});
 }
 
-/* ---- the same on a device ---- */
+/* ---- on a device ---- */
 
 typedef struct averaging {
     const mps_exact *sums;
@@ -210,7 +218,8 @@ MPS_ROW void average_row(const int dim, const averaging *f, int64_t i)
 }
 MPS__LOOP_ANY(average_rows, average_row, averaging)
 
-/* Cells where the last set-up had laid the first grid, and all from which follows where it lies now. */
+/* Queue the cells at the previous position of the first grid, and all that determines its new
+ * position. */
 static void queue_questions(mps__grid *g, const mps_ppe_problem *problem)
 {
     mps__grid_told *to = g->told;
@@ -229,7 +238,7 @@ static void queue_questions(mps__grid *g, const mps_ppe_problem *problem)
     mps__grid_sort(g, &g->level[0]);
 }
 
-/* A sample without pairs says nothing: all rows are asked. */
+/* If the sample has no pairs, all rows are sampled. */
 static int ask_all(mps__grid *g, const mps_ppe_problem *problem, mps__grid_common *common)
 {
     const int reason = mps__grid_look(problem, common);
@@ -237,7 +246,7 @@ static int ask_all(mps__grid *g, const mps_ppe_problem *problem, mps__grid_commo
     return reason;
 }
 
-/* What was told of the rows. */
+/* Take over the downloaded results of the rows. */
 static int take_look(mps__grid *g, const mps_ppe_problem *problem, const mps__grid_told *told,
                      mps__grid_common *common)
 {
@@ -252,7 +261,7 @@ static int take_look(mps__grid *g, const mps_ppe_problem *problem, const mps__gr
     return 0;
 }
 
-/* Place and size of the first grid, and whether it had them before. */
+/* Set position and size of the first grid. Returns whether they are unchanged. */
 static bool lies_as_before(mps__grid *g, const mps_ppe_problem *problem, const double *least,
                            double size)
 {
@@ -289,18 +298,18 @@ int mps__grid_ask(mps__grid *g, const mps_ppe_problem *problem)
 
 /* ---- first grid ---- */
 
-/* What loops over the cells of the first grid see. */
+/* Arguments of loops over the cells of the first grid. */
 typedef struct cells {
     const int32_t *turn, *start, *list, *next;
     const int64_t *row;
-    const double *entries;     /* [columns] of their rows, on many ranks */
+    const double *entries;     /* [columns] of the rows, on many ranks */
     const double *point_kappa; /* of the particles */
     double *count, *kappa, *flow;
     float *link;
     double unit, stiffness;
 } cells;
 
-/* Mean conductivity of a cell's particles, and the sum k_ij r_ij^2 of their pairs. */
+/* Mean conductivity of a cell's particles, and the sum of k_ij r_ij^2 over their pairs. */
 MPS_ROW void sum_row(const int dim, const cells *f, int64_t t)
 {
     const int64_t c = f->turn ? f->turn[t] : t;
@@ -318,9 +327,10 @@ MPS_ROW void sum_row(const int dim, const cells *f, int64_t t)
 }
 MPS__LOOP_ANY(sum_rows, sum_row, cells)
 
-/* Links where there is one density, without a walk over the pairs: a cell conducts as much as its particles, sum k_ij r_ij^2 /
- * (2 D size^2), and a face as much as the geometric mean of its two cells. Stiffer links save an iteration: the inverse diagonal has its
- * share of the smooth pressures already. */
+/* Links for one density, without a loop over the pairs: the conductance of a cell is that of its
+ * particles, sum k_ij r_ij^2 / (2 D size^2), that of a face the geometric mean of its two cells.
+ * Stiffer links save an iteration, since the inverse diagonal already reduces part of the smooth
+ * residual. */
 MPS_ROW void link_row(const int dim, const cells *f, int64_t c)
 {
     for (int64_t k = c * 2 * dim; k < (c + 1) * 2 * dim; k++) {
@@ -330,7 +340,7 @@ MPS_ROW void link_row(const int dim, const cells *f, int64_t c)
 }
 MPS__LOOP(link_rows, link_row, cells)
 
-/* The sums of particles are in x until a cycle. */
+/* The sums over particles are stored in x until the first cycle. */
 static cells cells_of(const mps__grid *g, const mps_ppe_problem *problem)
 {
     const mps__grid_level *l = &g->level[0];
@@ -349,8 +359,9 @@ static cells cells_of(const mps__grid *g, const mps_ppe_problem *problem)
                    .stiffness = stiffer * g->per_size * g->per_size / (2 * g->dim)};
 }
 
-/* What holds the pressure's level, to the cells that the particle takes its value from: a cell filled at its edge only would
- * otherwise hold a value that no particle has. */
+/* Distribute the diagonal shift, which sets the pressure datum, to the cells that the particle
+ * interpolates from: otherwise a cell filled only at its edge would fix a value that no particle
+ * has. */
 static int share_shifts(mps__grid *g)
 {
     const mps__grid_level *l = &g->level[0];
@@ -359,13 +370,13 @@ static int share_shifts(mps__grid *g)
     return reason;
 }
 
-/* Sums of cells on all ranks. Each particle has been counted once. */
+/* Collect the sums of cells on all ranks. Each particle has been counted once. */
 static int collect_sums(mps__grid *g, mps__grid_level *l)
 {
     double counted = 0;
     const int reason = mps__grid_ranks_collect(g, &g->ranks.owned, 3,
                                                (double *[]){l->count, l->kappa, l->x});
-    const double *counts = g->ranks.room[MPS__GRID_IN].at; /* of a cell: count, kappa, x */
+    const double *counts = g->ranks.room[MPS__GRID_IN].at; /* of each cell: count, kappa, x */
     if (reason) return reason;
     for (int64_t c = 0; c < l->cells; c++) counted += counts[3 * c];
     return counted == (double)g->ranks.table.rows ? 0 : MPS_PPE_BREAKDOWN;
@@ -388,7 +399,7 @@ int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
         reason = mps__grid_wires(g, problem);
     if (reason) return reason;
     mps__grid_share_particles(g, problem);
-    if (mps__grid_many(g)) /* what no rank fills stays zero */
+    if (mps__grid_many(g)) /* sums without contributions of any rank stay zero */
         mps__vectors_clear(team, (l->cells + 1) * mps__grid_all(g->dim), g->parts);
     return share_shifts(g);
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: memory, of the host or of a device. All arrays of the points of a level lie in one block, and all of its cells in another. */
+/* auxgrid: memory, of the host or of a device. The arrays of the points of a level are in one
+ * block, those of its cells in another. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include "scan.h"
@@ -33,7 +34,7 @@ static void drop(mps__grid *g, mps__grid_room *r)
 
 /* ---- blocks of several arrays ---- */
 
-/* A block; `base` NULL: it is measured. */
+/* A block; `base` NULL: only its size is computed. */
 typedef struct block {
     char *base;
     size_t used;
@@ -54,7 +55,7 @@ static void put_points(block *b, const mps__grid *g, mps__grid_level *l)
     l->list = put(b, l->points, sizeof *l->list);
 }
 
-/* A grid may have no cell at all. */
+/* A grid may have no cells. */
 static void put_cells(block *b, const mps__grid *g, mps__grid_level *l)
 {
     const int64_t cells = l->cells, sides = 2 * cells * g->dim;
@@ -89,7 +90,7 @@ bool mps__grid_reserve_cells(mps__grid *g, mps__grid_level *l)
     return b.base;
 }
 
-/* A cell adds to one at each of its corners at most. */
+/* A finer cell adds to at most one cell at each of its corners. */
 static void put_adding(block *b, const mps__grid *g, mps__grid_level *fine, mps__grid_level *l)
 {
     mps__grid_adding *a = &l->adding;
@@ -108,7 +109,7 @@ bool mps__grid_reserve_adding(mps__grid *g, mps__grid_level *fine, mps__grid_lev
     return b.base;
 }
 
-/* Two of keys and places: a sort goes from one to the other. */
+/* Two halves of keys and indices: a sort pass reads one and writes the other. */
 static void put_sorted(block *b, mps__grid_sorted *s, int64_t points)
 {
     s->key = put(b, 2 * points, sizeof *s->key);
@@ -167,7 +168,7 @@ bool mps__grid_reserve_order(mps__grid *g, int64_t cells)
     return g->order;
 }
 
-/* Of the last grid, and what is told of all. */
+/* Arrays of the last grid, and the results of the set-up. */
 static bool reserve_few(mps__grid *g)
 {
     const mps_allocator *a = &g->allocator;

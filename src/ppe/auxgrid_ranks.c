@@ -1,20 +1,23 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid on many ranks: owners of the cells of the first grid, and messages between them. All ranks number the cells alike, so these go
- * by their numbers.
+/* auxgrid on many ranks: owners of the cells of the first grid, and their messages. All ranks
+ * number the cells identically, so that messages need no keys.
  *
- * Sums over particles have the same terms in the same order as on one rank: the owner of a cell has all of its particles as rows or
- * columns, in the order of the particles, and the owner of a cell beside it gets the parts for it one by one.
+ * Sums over particles have the same terms in the same order as on one rank: the owner of a cell has
+ * all of its particles as rows or columns, in the order of the particles, and sends its
+ * contributions to neighbour cells of other owners one by one.
  *
- * Owners, lists and messages are of the host. Where a rank has a device, arrays of particles and cells are there: auxgrid_ranks_there.c. */
+ * Owners, lists and messages are on the host. Where a rank has a device, arrays of particles and
+ * cells are on the device: auxgrid_ranks_there.c. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include "loop.h"
 #include <string.h>
 
 enum {
+    /* owners not known yet; SEEN: the cell has particles on this rank */
     UNSEEN = -1,
     SEEN = -2
-}; /* owners that are not known yet; SEEN: the cell has particles here */
+};
 
 /* ---- memory ---- */
 
@@ -46,7 +49,6 @@ void mps__grid_ranks_release(mps__grid *g)
     g->ranks = (mps__grid_ranks){.whole = whole};
 }
 
-/* What a loop over columns sees. */
 typedef struct placing {
     const int32_t *order;
     int32_t *place;
@@ -83,7 +85,7 @@ int mps__grid_ranks_begin(mps__grid *g, const mps_ppe_problem *problem)
 
 /* ---- messages ---- */
 
-/* A number of each rank into `count`. Returns their sum, -1 after a failure. */
+/* Collect one number of each rank in `count`. Returns their sum, -1 after a failure. */
 static int64_t gather_count(mps__grid_ranks *r, int64_t own)
 {
     int64_t sum = 0;
@@ -160,7 +162,7 @@ static int share_rows(mps__grid *g)
     return mps__grid_ranks_share(g, g->point_kappa);
 }
 
-/* Those of this rank, on the host. NULL: out of memory */
+/* Keys of this rank, on the host. NULL: out of memory */
 static const int64_t *own_keys(mps__grid *g, int64_t own)
 {
     if (!g->device) return g->point_key;
@@ -169,7 +171,7 @@ static const int64_t *own_keys(mps__grid *g, int64_t own)
     return key;
 }
 
-/* Keys of the cells that hold rows of any rank, some more than once. */
+/* Keys of the cells that contain rows of any rank; a key may occur several times. */
 static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int64_t **key,
                         int64_t *keys)
 {
@@ -186,7 +188,8 @@ static int collect_keys(mps__grid *g, const mps_ppe_problem *problem, const int6
     return all && found ? gather(r, found, sizeof *all, all) : MPS_PPE_NOMEM;
 }
 
-/* Centres of the cells that have particles here; with a device of all cells, for homes are not on the host. Returns their number, -1: out of memory. */
+/* Centres of the cells that have particles on this rank; with a device, of all cells, because homes
+ * are not on the host. Returns their number, -1: out of memory. */
 static int64_t find_centres(mps__grid *g, double **centre)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -205,7 +208,8 @@ static int64_t find_centres(mps__grid *g, double **centre)
     return seen;
 }
 
-/* Cells that this rank owns into `own` [cells]. Returns their number, -1: out of memory, -2: failed */
+/* List the cells that this rank owns in `own` [cells]. Returns their number, -1: out of memory, -2:
+ * failed */
 static int64_t find_own(mps__grid *g, int32_t *own)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -221,7 +225,7 @@ static int64_t find_own(mps__grid *g, int32_t *own)
     return count;
 }
 
-/* Owners of all cells. Each cell has one, which has its particles. */
+/* Owners of all cells. Each cell has one, which has all of its particles. */
 static int find_owners(mps__grid *g)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -243,17 +247,17 @@ static int find_owners(mps__grid *g)
     return 0;
 }
 
-/* ---- parts that go to other ranks ---- */
+/* ---- contributions to other ranks ---- */
 
-/* Owner of the cell in direction k of a cell; -1: there is no cell. */
+/* Owner of the neighbour in direction k of a cell; -1: no such cell. */
 static int32_t owner_about(const mps__grid *g, int64_t cell, int k)
 {
     const int32_t other = g->ranks.about[cell * mps__grid_all(g->dim) + k];
     return other == g->level[0].cells ? -1 : g->ranks.owner[other];
 }
 
-/* Parts of the own cells that go to other ranks. Without a list: how many go to each, into `count`. Otherwise into the list, those for a
- * rank from `bytes` of it on. */
+/* Contributions of own cells to other ranks. Without a list: count those for each rank into
+ * `count`. Otherwise write them to the list, those for a rank from its entry of `bytes` on. */
 static void list_sent(mps__grid *g, int64_t *list)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -270,8 +274,9 @@ static void list_sent(mps__grid *g, int64_t *list)
         }
 }
 
-/* Parts that come, in the order in which they are sent: by rank, cell and direction. @param beside  [cells] 1 for a cell about an own one
- * @return how many, at most `most` of them listed */
+/* Contributions to receive, in the order in which they are sent: by rank, cell and direction.
+ * @param beside  [cells] 1 for a cell in the neighbourhood of an own one
+ * @return how many; at most `most` of them are listed */
 static int64_t list_received(const mps__grid *g, const uint8_t *beside, int64_t most, int64_t *list)
 {
     const mps__grid_ranks *r = &g->ranks;
@@ -302,7 +307,7 @@ static uint8_t *mark_beside(mps__grid *g)
     return beside;
 }
 
-/* A route to the ranks that get parts. */
+/* A route to the ranks that receive contributions. */
 static int connect_owners(mps__grid *g)
 {
     mps__grid_ranks *r = &g->ranks;
@@ -340,7 +345,7 @@ static int find_parts(mps__grid *g)
     return list_received(g, beside, received, r->receive) == received ? 0 : MPS_PPE_BREAKDOWN;
 }
 
-/* Cells from the columns and the keys of all ranks. */
+/* Cells from the columns and the keys of all ranks, on the host. */
 static int cells_here(mps__grid *g, const mps_ppe_problem *problem, const int64_t *key,
                       int64_t keys)
 {
@@ -349,7 +354,7 @@ static int cells_here(mps__grid *g, const mps_ppe_problem *problem, const int64_
     mps__grid_place(g, problem, r->columns);
     memcpy(g->point_key + r->columns, key, (size_t)keys * sizeof *key);
     if (!mps__grid_cells(g, l, r->columns + keys)) return MPS_PPE_NOMEM;
-    l->points = r->columns; /* the keys behind them are those of cells, not of particles */
+    l->points = r->columns; /* the keys after them are those of cells, not of particles */
     r->key = l->key;
     r->about = l->about;
     return 0;

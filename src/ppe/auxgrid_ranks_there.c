@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid on many ranks that have a device each: cells of all ranks there, lists of the host that go there, and packets between both. */
+/* auxgrid on many ranks with a device each: cells of all ranks on the device, upload of host lists,
+ * and packets between host and device. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include "loop.h"
 #include <string.h>
 
-enum { MOST_ARRAYS = 3 }; /* of a packet of cells */
+enum { MOST_ARRAYS = 3 }; /* of a packet */
 
 /* ---- packets ---- */
 
 typedef struct packing {
     const int64_t *place;
     double *array, *packet;
-    int64_t arrays, number; /* of arrays in the packet; of this one */
+    int64_t arrays, number; /* number of arrays in the packet; index of this one */
 } packing;
 
 MPS_ROW void pick_row(const int dim, const packing *f, int64_t k)
@@ -56,7 +57,7 @@ void mps__grid_go(mps__grid *g, const int64_t *place, int64_t count, int arrays,
 
 /* ---- cells ---- */
 
-/* Copy keys and neighbours of the cells to the host, which finds owners and parts from them. */
+/* Download keys and neighbours of the cells: the host finds owners and contributions from them. */
 static int fetch_cells(mps__grid *g, const mps__grid_level *l)
 {
     const int64_t around = l->cells * mps__grid_all(g->dim);
@@ -76,14 +77,14 @@ int mps__grid_cells_there(mps__grid *g, const mps_ppe_problem *problem, const in
     mps__grid_level *l = &g->level[0];
     mps__device_upload(g->device, g->point_key, key, (size_t)keys * sizeof *key);
     if (!mps__grid_cells(g, l, keys)) return MPS_PPE_NOMEM;
-    l->points = g->ranks.columns; /* until here the keys */
+    l->points = g->ranks.columns; /* so far the number of keys */
     if (!mps__grid_reserve_points(g, l)) return MPS_PPE_NOMEM;
     mps__grid_place(g, problem, l->points);
     mps__grid_home(g, l);
     return fetch_cells(g, l);
 }
 
-/* Copy a list of the host to the device. NULL: out of memory */
+/* Upload a list to the device. NULL: out of memory */
 static void *send(mps__grid *g, int which, const void *list, int64_t count, size_t size)
 {
     void *there = mps__grid_ranks_room(g, which, count, size);

@@ -1,18 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: the cells of a grid on a device, where no thread can put what it finds into a table of all. Points are sorted by their cells, and a cell
- * begins where a key differs from the one before. The same cells in the same order as on the host. */
+/* auxgrid: the cells of a grid on a device, whose threads cannot insert into a common hash table.
+ * Points are sorted by cell, and a cell begins where a key differs from the previous one. Cells and
+ * their order are those of the host. */
 #include "auxgrid.h"
 #include "scan.h"
 #include "sort.h"
 
-/* Points that are put in order together at first. */
+/* Length of the runs of points that are sorted first. */
 enum { FIRST_RUN = 64 };
 
 static const uint64_t no_cell = UINT64_MAX, black = (uint64_t)1 << 63;
 
-/* What a loop works on; each uses its own. */
+/* Arguments of the loops. */
 typedef struct sorting {
-    int64_t n; /* points */
+    int64_t n; /* number of points */
     const int64_t *point_key;
     const uint64_t *key;
     uint64_t *new_key;
@@ -59,7 +60,7 @@ MPS_ROW void begin_row(const int dim, const sorting *f, int64_t a)
 }
 MPS__LOOP_ANY(begin_rows, begin_row, sorting)
 
-/* Numbers of cells, and of red ones. */
+/* Maxima: number of cells, of red cells. */
 MPS_ROW void count_row(const int dim, const sorting *f, int64_t a, double *most)
 {
     const double cells = (double)f->number[a];
@@ -114,7 +115,7 @@ typedef struct numbering {
     float *link;
 } numbering;
 
-/* A place of the order. */
+/* One entry of the sorted order. */
 MPS_ROW void number_row(const int dim, const numbering *f, int64_t a)
 {
     const int32_t point = f->order[a];
@@ -133,7 +134,7 @@ MPS_ROW void number_row(const int dim, const numbering *f, int64_t a)
 }
 MPS__LOOP_ANY(number_rows, number_row, numbering)
 
-/* The cell of a key of one colour, `none` where there is not. */
+/* The cell with a key of one colour, `none` if there is none. */
 MPS_ROW int32_t cell_of(const numbering *f, int64_t key, int64_t none)
 {
     const bool red = mps__grid_is_red(key);
@@ -187,9 +188,9 @@ void mps__grid_number(mps__grid *g, mps__grid_level *l)
     mps__loop_run(g->parallel, &neighbour_rows, g->dim, l->cells, &f);
 }
 
-/* ---- many ranks: the cells are those of all ranks, the points those of this one ---- */
+/* ---- many ranks: cells of all ranks, points of this one ---- */
 
-/* Keys of the cells replace those of the points, in the order of the sort. */
+/* Keys of the cells replace those of the points, in the sorted order. */
 MPS_ROW void key_row(const int dim, const numbering *f, int64_t a)
 {
     (void)dim;
@@ -222,7 +223,7 @@ void mps__grid_home(mps__grid *g, mps__grid_level *l)
     mps__loop_run(g->parallel, &home_rows, MPS__ANY_DIM, l->points, &f);
 }
 
-/* What loops over columns in the order of the particles see. */
+/* Arguments of loops over columns in the order of the particles. */
 typedef struct listing {
     const int32_t *column, *owner, *home;
     const int64_t *key;
@@ -235,7 +236,7 @@ typedef struct listing {
     int32_t *list, *start;
 } listing;
 
-/* Columns in cells of other ranks get no key, so the sort puts them at the end. */
+/* Columns in cells of other ranks get no key, so that they are sorted to the end. */
 MPS_ROW void choose_row(const int dim, const listing *f, int64_t k)
 {
     const int32_t home = f->home[f->column[k]];

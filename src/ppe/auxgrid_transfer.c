@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: transfer of values between the points and the cells of a grid. A point takes its value from the 2^dim cells on the
- * side of its cell that it is nearer to, and adds to those cells with the same shares.
+/* auxgrid: interpolation and restriction between the points and the cells of a grid. A point
+ * interpolates from the 2^dim cells on the side of its cell that it is nearer to; restriction uses
+ * the same weights.
  *
- * A sum over particles has two steps with a fixed order each, so that it does not depend on threads: the particles of a cell, in
- * their order, make up its parts for itself and for the cells about it; then each cell adds up the parts for it. */
+ * A sum over particles has two steps of fixed order, so that it does not depend on threads: the
+ * particles of a cell, in their order, are summed into its contributions to its neighbourhood; then
+ * each cell adds the contributions to it. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <math.h>
 #include <string.h>
 
-/* Digits of base three: 0 without a step along the axis, 1 with one down, 2 with one up. */
+/* Digits of base three: 0 no step along the axis, 1 one step down, 2 one step up. */
 const uint8_t mps__grid_corner[8][8] = {{0, 1, 3, 4, 9, 10, 12, 13},  {0, 2, 3, 5, 9, 11, 12, 14},
                                         {0, 1, 6, 7, 9, 10, 15, 16},  {0, 2, 6, 8, 9, 11, 15, 17},
                                         {0, 1, 3, 4, 18, 19, 21, 22}, {0, 2, 3, 5, 18, 20, 21, 23},
@@ -19,7 +21,7 @@ const uint8_t mps__grid_opposite[MPS__GRID_ABOUT] = {0,  2,  1,  6,  8,  7,  3, 
                                                      18, 20, 19, 24, 26, 25, 21, 23, 22,
                                                      9,  11, 10, 15, 17, 16, 12, 14, 13};
 
-/* ---- particles by cell ---- */
+/* ---- particles sorted by cell ---- */
 
 /* On many ranks each sums the particles of its own cells. */
 static inline bool is_summed(const mps__grid_ranks *r, int32_t cell)
@@ -27,8 +29,8 @@ static inline bool is_summed(const mps__grid_ranks *r, int32_t cell)
     return !r || r->owner[cell] == r->table.rank;
 }
 
-/* Cells take turns as the particles meet them, so that the list goes through memory about as the particles do. No sum depends
- * on the turns. */
+/* Cells are ordered as the particles meet them, so that the list accesses memory roughly in the
+ * order of the particles. No sum depends on this order. */
 static void list_turns(mps__grid *g, const mps__grid_ranks *r)
 {
     const mps__grid_level *l = &g->level[0];
@@ -51,7 +53,7 @@ static void list_turns(mps__grid *g, const mps__grid_ranks *r)
     }
 }
 
-/* A device has the list since its points were sorted; on many ranks it makes one of the own cells. */
+/* On a device the points are sorted already; on many ranks a list of the own cells is made. */
 bool mps__grid_list(mps__grid *g)
 {
     const int64_t cells = g->level[0].cells;
@@ -66,9 +68,8 @@ bool mps__grid_list(mps__grid *g)
     return g->turn;
 }
 
-/* ---- shares of the points ---- */
+/* ---- interpolation weights of the points ---- */
 
-/* What loops over points see. */
 typedef struct sharing {
     const int32_t *home, *next;
     const float *link;
@@ -78,8 +79,8 @@ typedef struct sharing {
     mps__grid_positions at;    /* of particles */
     const double *point_shift; /* [shifts] */
     int64_t shifts;
-    double *particle;   /* conductivities, in whose place the shifts come */
-    const int64_t *key; /* of cells of the finer grid */
+    double *particle;   /* conductivities, replaced by the shifts */
+    const int64_t *key; /* of the cells of the finer grid */
     const double *cell; /* their conductivities */
 } sharing;
 
@@ -93,14 +94,15 @@ static sharing sharing_of(const mps__grid_level *l)
                      .share = l->share};
 }
 
-/* Shares of the 2^dim cells around a point. far[a] is the share of the cell beside its own along axis a; only cells joined to
- * the own one by links count, and a cell that conducts less than the point counts less. */
+/* Interpolation weights of the 2^dim cells around a point. far[a] is the weight of the neighbour
+ * cell along axis a. Only cells linked to the own cell count, and a cell of lower conductivity than
+ * the point has a lower weight. */
 MPS_ROW void set_shares(const int dim, const sharing *f, int64_t point, double kappa,
                         const double *far, const int side)
 {
     const int corners = 1 << dim;
     float *share = f->share + point * corners;
-    int32_t at[8]; /* -1: not joined */
+    int32_t at[8]; /* -1: not linked */
     double w[8], sum = 0;
     for (int k = 0; k < corners; k++) {
         at[k] = k == 0 ? f->home[point] : -1;
@@ -164,7 +166,6 @@ void mps__grid_share_cells(const mps__grid *g, const mps__grid_level *fine, mps_
 
 /* ---- from the particles to the cells ---- */
 
-/* What loops over particles and cells see. */
 typedef struct adding {
     mps__grid_points to;
     const int32_t *list, *start, *turn;
@@ -181,7 +182,7 @@ static adding adding_of(const mps__grid *g, const double *values, double scale)
         mps__grid_points_of(l), l->list, l->start, g->turn, values, scale, g->parts, l->b};
 }
 
-/* What a particle adds to its cell and to the cells about it. */
+/* Contributions of a particle to the neighbourhood of its cell. */
 MPS_ROW void add_value(const int dim, const adding *t, int64_t i)
 {
     const int corners = 1 << dim;
@@ -192,24 +193,25 @@ MPS_ROW void add_value(const int dim, const adding *t, int64_t i)
     for (int k = 0; k < corners; k++) part[corner[k]] += (double)share[k] * value;
 }
 
-/* Particles as they lie in memory: the fastest way of one thread. */
+/* Particles in the order of memory: fastest with one thread. */
 static void add_all(int dim, int64_t n, const adding *given)
 {
-    const adding t = *given; /* its pointers stay in registers */
+    const adding t = *given; /* a copy, so that its pointers stay in registers */
     if (dim == 2)
         for (int64_t i = 0; i < n; i++) add_value(2, &t, i);
     else
         for (int64_t i = 0; i < n; i++) add_value(3, &t, i);
 }
 
-/* Particles of a cell: threads do not write to the same cells. The order in each cell is that of one thread. */
+/* Particles of one cell: threads do not write to the same cells. The order within a cell is that of
+ * one thread. */
 MPS_ROW void add_turn(const int dim, const adding *t, int64_t turn)
 {
     for (int32_t p = t->start[turn]; p < t->start[turn + 1]; p++) add_value(dim, t, t->list[p]);
 }
 MPS__LOOP(add_turns, add_turn, adding)
 
-/* The parts for a cell; those of the cell that stands for none are zero. */
+/* Sum of the contributions to a cell; those of the placeholder for missing cells are zero. */
 MPS_ROW void sum_cell(const int dim, const adding *t, int64_t c)
 {
     const int all = mps__grid_all(dim);
@@ -220,7 +222,7 @@ MPS_ROW void sum_cell(const int dim, const adding *t, int64_t c)
 }
 MPS__LOOP(sum_cells, sum_cell, adding)
 
-/* Parts of the cells that this rank owns; those of all others come from other ranks or stay zero. */
+/* Clear the contributions of own cells; all others are received from other ranks or stay zero. */
 MPS_ROW void clear_turn(const int dim, const adding *t, int64_t turn)
 {
     const int all = mps__grid_all(dim);
@@ -234,7 +236,8 @@ MPS_ROW void sum_turn(const int dim, const adding *t, int64_t turn)
 }
 MPS__LOOP(sum_turns, sum_turn, adding)
 
-/* A device clears and sums all cells; values of other ranks' cells are replaced by those of their owners later. */
+/* A device clears and sums all cells; values of other ranks' cells are replaced later by those of
+ * their owners. */
 static void clear_parts(const mps__grid *g, const mps_parallel *team, const adding *t)
 {
     if (g->device)
@@ -263,7 +266,7 @@ static int restrict_ranks(mps__grid *g, const double *values, double scale)
     reason = mps__grid_ranks_exchange(g);
     if (reason) return reason;
     sum_parts(g, team, &t);
-    /* the cycle on a divided grid takes the right side of the own cells */
+    /* the cycle on a divided grid uses the right side of own cells only */
     return g->ranks.divided > 0 ? 0 : mps__grid_ranks_collect(g, &g->ranks.owned, 1, &l->b);
 }
 

@@ -1,54 +1,58 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* auxgrid: conductances between cells for more than one density. A matrix entry k_ij is a wire from particle i to j; where it
- * crosses from cell to cell along an axis it adds k_ij |x_j - x_i| / size, both along that axis. For a linear pressure that is
- * the energy of the wires, and between two densities it is what lets the pressure through.
+/* auxgrid: conductances between cells for several densities. A matrix entry k_ij is an edge from
+ * particle i to j. Where the edge crosses a cell face along an axis, it adds k_ij |x_j - x_i| /
+ * size to that face, both along that axis. For a linear pressure this preserves the energy of the
+ * edges; between two densities it gives the coupling that the pressure needs.
  *
- * Each term is rounded to an integer and the integers are added: their sum is exact, so it depends neither on the order of the
- * pairs nor on how many threads share them. */
+ * Each term is rounded to an integer and the integers are added: the sum is exact, so that it
+ * depends neither on the order of the pairs nor on the number of threads. */
 #include "auxgrid.h"
 #include "kernels.h"
 #include <math.h>
 #include <string.h>
 
 enum {
-    MAX_STEPS = 12, /* cells that a wire may cross */
-    CHUNKS = 8      /* parts of the rows, each with sums of its own */
+    MAX_STEPS = 12, /* faces that an edge may cross */
+    CHUNKS = 8      /* chunks of the rows, each with its own sums */
 };
 
-/* The integer of a conductance of 1, about that of a pair of the lightest fluid. A pair of a fluid 1000 times as dense conducts
- * 0.001, with an error of 2e-9 of that: less than the error of a float. A face adds up some hundred pairs. */
+/* The integer that represents a conductance of 1, about that of a pair of the lightest fluid. A
+ * pair of a fluid 1000 times as dense conducts 0.001, with an error of 2e-9 of that: less than the
+ * rounding of a float. A face sums some hundred pairs. */
 static const double per_unit = 0x1p38;
-/* From here on a sum counts as infinite, which mps__grid_factorise() refuses, and so does one with the mark of a term that is too large itself. */
+/* From this value on a sum counts as infinite, which mps__grid_factorise() refuses. A single term
+ * that is too large adds this value. */
 #define MOST     (UINT64_C(1) << 58)
 #define INFINITE (UINT64_C(1) << 63)
-static const double largest_term =
-    0x1p52; /* far from any pair's; hundreds of them are below the mark */
+/* far above any pair's conductance; hundreds of them stay below MOST */
+static const double largest_term = 0x1p52;
 
 typedef struct wiring {
     const int64_t *row, *key;
     const int32_t *col, *home, *next;
     const float *val;
-    const int32_t *
-        place; /* NULL, or [columns] where the numbers of rows are not in the order of the particles */
+    /* NULL, or [columns] where rows are not numbered in the order of the particles */
+    const int32_t *place;
     mps__grid_positions at;
     double unit;
-    int64_t n, count; /* rows; faces */
+    int64_t n, count; /* number of rows; of faces */
     int32_t chunks;
     bool together; /* rows of different threads add to the same faces */
-    uint64_t
-        *faces; /* [chunks][cells * dim] conductance of the face above a cell along each axis */
+    /* [chunks][cells * dim] conductance of the face above a cell along each axis */
+    uint64_t *faces;
     float *link;
 } wiring;
 
 typedef struct wire {
     double x[3], d[3]; /* start and difference in cells */
     double k;
-    int left[3]; /* steps still to go along each axis */
+    int left[3]; /* remaining steps along each axis */
     int steps;
     int64_t face[MAX_STEPS]; /* crossed so far */
 } wire;
 
-/* Next axis to step along: the plane that the wire meets first, unless there is no cell behind it. -1: none */
+/* Next axis to step along: that of the cell face that the edge meets first, unless no cell is
+ * behind it. -1: none */
 MPS_ROW int next_axis(const int dim, const wiring *y, const wire *w, int32_t cell)
 {
     int best = -1;
@@ -66,7 +70,7 @@ MPS_ROW int next_axis(const int dim, const wiring *y, const wire *w, int32_t cel
     return best;
 }
 
-/* Cells from one to the next along the wire. False: they are too far apart or not joined. */
+/* Follow the edge from cell to cell. False: the cells are too far apart or not connected. */
 MPS_ROW bool follow(const int dim, const wiring *y, wire *w, int32_t from, int32_t to)
 {
     int all = 0;
@@ -110,7 +114,7 @@ MPS_ROW void add_wire(const int dim, const wiring *y, wire *w, const int32_t hom
         add(y, &faces[w->face[s]], w->k * fabs(w->d[w->face[s] % dim]));
 }
 
-/* The same for cells with a face in common, as most are. False: they have none. */
+/* Shortcut for cells with a common face, which most are. False: they have none. */
 MPS_ROW bool add_short_wire(const int dim, const wiring *y, const wire *w, const int32_t home[2],
                             uint64_t *faces)
 {
@@ -144,7 +148,7 @@ MPS_ROW void wire_row(const int dim, const wiring *y, int64_t i)
 }
 MPS__LOOP(wire_rows, wire_row, wiring)
 
-/* A part of the rows on the host, whose sums are its own. */
+/* A chunk of the rows on the host, with its own sums. */
 typedef struct parting {
     const wiring *y;
     int dim;
@@ -173,7 +177,7 @@ MPS_ROW uint64_t sum_of(const wiring *y, int64_t face)
     return sum < MOST ? sum : MOST;
 }
 
-/* Links from both sides of the faces above a cell. */
+/* Links on both sides of the faces above a cell. */
 MPS_ROW void set_link_row(const int dim, const wiring *y, int64_t cell)
 {
     for (int64_t f = cell * dim; f < (cell + 1) * dim; f++) {
@@ -195,7 +199,8 @@ static void add_faces(void *into, const void *from)
     memcpy(into, &a, sizeof a);
 }
 
-/* Sums of all chunks into the first, then over the ranks, on the host. A pair of two ranks is a wire of the particle that comes first. */
+/* Add the sums of all chunks into the first, then over the ranks, on the host. A pair of two ranks
+ * is counted at the particle that comes first. */
 static int add_ranks(mps__grid *g, const mps_ppe_problem *problem, wiring *y)
 {
     const size_t bytes = (size_t)y->count * sizeof *y->faces;

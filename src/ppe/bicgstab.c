@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* sundials.bicgstab: stabilised bi-conjugate gradients, for matrices that a model made unsymmetric. */
+/* sundials.bicgstab: stabilised bi-conjugate gradients, for matrices that a model made
+ * unsymmetric. */
 #include "builtin.h"
 #include "krylov.h"
 #include <sunlinsol/sunlinsol_spbcgs.h>
@@ -12,7 +13,8 @@ static SUNLinearSolver make(N_Vector like, SUNContext context)
 static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
                double delta)
 {
-    /* the driver preconditions inside the product: with SUN_PREC_RIGHT an interrupted run would return M x instead of x */
+    /* the driver preconditions inside the product: with SUN_PREC_RIGHT an interrupted run would
+     * return M x instead of x */
     (void)preconditioned;
     SUNLinSol_SPBCGSSetMaxl(solver, iterations);
     return SUNLinSolSolve(solver, NULL, x, b, delta);

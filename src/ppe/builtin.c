@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The list of built-in solvers and preconditioners; the registry goes through it at the creation of a handle. */
+/* List of built-in solvers and preconditioners; the registry reads it when a handle is created. */
 #include "builtin.h"
 #include <stddef.h>
 

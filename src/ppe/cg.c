@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conjugate gradients whose host does not look at each sum. A loop over one row decides: it stops the run by a number that all launches know, which
- * do nothing from then on. Launches that were queued behind it change neither the solution nor the numbers. */
+/* Conjugate gradients without a host wait at each sum. A loop over one row decides: it ends the run
+ * by setting a number that all launches test. Launches queued after that change neither the
+ * solution nor the numbers. */
 #include "cg_room.h"
 
-/* The weights of a run, whose divergence counts where it has a limit. */
+/* Weights of the stopping criterion; NULL: no limit of the divergence. */
 MPS_ROW const double *weights_of(const mps__cg_recurrence *f)
 {
     return f->divergence_limit > 0 ? f->weight : NULL;
 }
 
-/* How far the residual of a run is above the limits of both norms, by the roundings of N_VProd, N_VDotProd and SUNRsqrt. */
+/* How far the residual of a run is above the limits of both norms, rounded as in N_VProd,
+ * N_VDotProd and SUNRsqrt. */
 MPS_ROW double excess(const mps__cg_recurrence *f, double squares, double largest)
 {
     const double norm = sqrt(squares) / f->n->norm_limit,
@@ -24,7 +26,7 @@ MPS_ROW int64_t whether_to_stop(const mps__cg_recurrence *f, double squares, dou
     return f->n->iterations == f->most ? USED_UP : GOING;
 }
 
-/* The first stop of a run from a residual that was checked. */
+/* First stopping test of a run, from a residual that was checked. */
 MPS_ROW int64_t begin_run(const mps__cg_recurrence *f, double now, double share)
 {
     f->n->iterations = 0;
@@ -104,7 +106,7 @@ MPS_ROW void turn(const int dim, const mps__cg_recurrence *f, int64_t i)
 }
 MPS__LOOP_ANY(turns, turn, mps__cg_recurrence)
 
-/* A step along p, and the norms of what is left. */
+/* A step along p, and the norms of the new residual. */
 MPS_ROW void advance(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
 {
     (void)dim;
@@ -127,7 +129,7 @@ void mps__cg_queue_decision(mps__cg_solving *s, int32_t decision)
     mps__cg_queue_rows(s, &decisions, 1);
 }
 
-/* z of the preconditioner, and the direction from it. Returns 0 or a reason of failure of the host. */
+/* Queue z = M^-1 r and the new direction. Returns 0 or a reason of failure of the host. */
 static int queue_direction(mps__cg_solving *s)
 {
     const mps__cg *c = s->c;

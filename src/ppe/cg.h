@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conjugate gradients on a device: the operations of krylov.c and of SUNLinSol_PCG as it uses it, in their order, so the same bytes. Their numbers
- * stay on the device, and the host waits once in MPS__CG_AT_ONCE iterations, and once before the set-up of a preconditioner. */
+/* Conjugate gradients on a device: the operations of krylov.c and of SUNLinSol_PCG, as krylov.c
+ * uses it, in the same order, so with the same bytes. Their numbers stay on the device; the host
+ * waits once every MPS__CG_AT_ONCE iterations and once before the set-up of a preconditioner. */
 #ifndef MPS_PPE_CG_H
 #define MPS_PPE_CG_H
 
@@ -17,9 +18,9 @@ typedef struct mps__cg {
     mps__pcg_hint *hint;
     void *room;                    /* [mps__cg_bytes()] bytes */
     double *p;                     /* first guess and solution */
-    double *start;                 /* scratch: the guess, */
-    double *x, *r;                 /* a correction, and what is left of the right side */
-    double *array[MPS__CG_ARRAYS]; /* scratch */
+    double *start;                 /* workspace: the first guess */
+    double *x, *r;                 /* correction and residual */
+    double *array[MPS__CG_ARRAYS]; /* workspace */
 } mps__cg;
 
 size_t mps__cg_bytes(void);

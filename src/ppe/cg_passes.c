@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Passes of conjugate gradients on a device, as krylov.c has them: the first guess and its residual, runs, the corrections that they find. What decides
- * stays there; the host waits for all of it at once, before the set-up of a preconditioner and behind iterations. */
+/* Passes of conjugate gradients on a device, as in krylov.c: first guess and its residual, runs,
+ * corrections. Decisions are made on the device; the host waits for all of them at once, before the
+ * set-up of a preconditioner and after iterations. */
 #include "cg_room.h"
 
 MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
@@ -12,7 +13,7 @@ MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, do
 }
 MPS__VALUES_ANY(beginnings, begin_row, mps__cg_recurrence, 1, 2)
 
-/* A guess with NaN or infinity becomes zero; of zeros the solution is known. */
+/* A guess with NaN or infinity becomes zero; for a zero right side the solution is zero. */
 MPS_ROW void guess(const int dim, const mps__cg_recurrence *f, int64_t i)
 {
     (void)dim;
@@ -21,7 +22,7 @@ MPS_ROW void guess(const int dim, const mps__cg_recurrence *f, int64_t i)
 }
 MPS__LOOP_ANY(guesses, guess, mps__cg_recurrence)
 
-/* As mps_ppe_check() does it. */
+/* Checks a row as mps_ppe_check() does. */
 MPS_ROW void check_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
 {
     const double *p = f->solution;
@@ -68,7 +69,7 @@ size_t mps__cg_bytes(void)
 
 /* ---- the queue ---- */
 
-/* The guess, its residual, and whether a run begins. */
+/* Queue the guess, its residual, and the decision whether a run begins. */
 static void queue_beginning(mps__cg_solving *s)
 {
     mps__device_clear(s->device, s->there, sizeof *s->there);
@@ -78,7 +79,7 @@ static void queue_beginning(mps__cg_solving *s)
     mps__cg_queue_decision(s, WHETHER_TO_BEGIN);
 }
 
-/* What follows a run once it has stopped: the correction and the residual that it leaves. */
+/* Queue the steps after a run: its correction and the new residual. */
 static void queue_end(mps__cg_solving *s)
 {
     s->device->unless = &s->there->numbers.over;
@@ -89,7 +90,7 @@ static void queue_end(mps__cg_solving *s)
     s->device->unless = NULL;
 }
 
-/* Wait for the numbers, and for what the caller wants to know of the pressures. */
+/* Wait for the numbers, and for the value of the pressures that the caller requested. */
 static mps__cg_numbers fetch(const mps__cg_solving *s)
 {
     mps__pcg_hint *hint = s->c->hint;
@@ -102,7 +103,8 @@ static mps__cg_numbers fetch(const mps__cg_solving *s)
     return n;
 }
 
-/* A run from x = 0, which may have stopped before it begins. `reason`: of a failure of the host, which ends it too. */
+/* A run from x = 0; it may stop before its first iteration. `reason`: failure of the host, which
+ * ends it too. */
 static mps__cg_numbers run(mps__cg_solving *s, int *reason)
 {
     mps__cg_numbers n = {.stop = GOING};
@@ -121,7 +123,7 @@ static mps__cg_numbers run(mps__cg_solving *s, int *reason)
 
 /* ---- a solution ---- */
 
-/* Why a run has failed; 0: it has not. */
+/* Reason of failure of a run; 0: none. */
 static int failure_of(const mps__cg_solving *s, const mps__cg_numbers *n)
 {
     static const int reasons[] = {[POISONED] = MPS_PPE_NAN,
@@ -133,7 +135,7 @@ static int failure_of(const mps__cg_solving *s, const mps__cg_numbers *n)
     return n->stop <= CURVED ? reasons[n->stop] : 0;
 }
 
-/* Of a guess that leads nowhere zeros are the next one. */
+/* Queue a zero guess after a guess without finite residual. */
 static void queue_zeros(mps__cg_solving *s)
 {
     mps__vectors_clear(s->parallel, s->n, s->f.solution);
@@ -152,7 +154,7 @@ static void note_guess(mps__cg_solving *s, mps_ppe_result *result, const mps__cg
     s->excess = mps__result_excess(s->c->problem, result);
 }
 
-/* What keeps a run from beginning, a reason; < 0: nothing does. */
+/* Reason that keeps a run from beginning; < 0: none. */
 static int obstacle_of(const mps__cg_numbers *n)
 {
     if (n->stop == SOLVED) return MPS_PPE_CONVERGED;
@@ -160,7 +162,7 @@ static int obstacle_of(const mps__cg_numbers *n)
     return n->stop == NOWHERE || n->stop == REFUSED ? MPS_PPE_NAN : -1;
 }
 
-/* Wait for what the beginning has found. Returns a reason that ends the solution, < 0: none. */
+/* Wait for the results of the first guess. Returns a reason that ends the solution, < 0: none. */
 static int look_at_beginning(mps__cg_solving *s, mps_ppe_result *result)
 {
     mps__cg_numbers n = fetch(s);
@@ -172,7 +174,7 @@ static int look_at_beginning(mps__cg_solving *s, mps_ppe_result *result)
     return s->device->failed ? MPS_PPE_BREAKDOWN : obstacle_of(&n);
 }
 
-/* The preconditioner. Returns 0 or a reason of failure. */
+/* Set up the preconditioner. Returns 0 or a reason of failure. */
 static int set_up(const mps__cg *c, mps_ppe_result *result)
 {
     if (!c->pc) return 0;
@@ -182,7 +184,7 @@ static int set_up(const mps__cg *c, mps_ppe_result *result)
     return reason;
 }
 
-/* The first run, where the host has not looked yet whether it begins. */
+/* The first run, queued before the host knows whether it begins. */
 static mps__cg_numbers run_at_once(mps__cg_solving *s, mps_ppe_result *result, int *reason)
 {
     mps__cg_numbers n = run(s, reason);
@@ -194,7 +196,7 @@ static mps__cg_numbers run_at_once(mps__cg_solving *s, mps_ppe_result *result, i
     return n;
 }
 
-/* Runs go on until the true residual is small enough. `known`: the first one begins. */
+/* Repeat runs until the true residual is small enough. `known`: the first one begins. */
 static int passes(mps__cg_solving *s, mps_ppe_result *result, bool known)
 {
     const mps_ppe_problem *problem = s->c->problem;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run of conjugate gradients on a device (cg.c) and what stands about it (cg_passes.c) work on. */
+/* Data of conjugate gradients on a device: of a run (cg.c) and of the passes (cg_passes.c). */
 #ifndef MPS_PPE_CG_ROOM_H
 #define MPS_PPE_CG_ROOM_H
 
@@ -8,8 +8,8 @@
 #include "loop.h"
 #include <math.h>
 
-/* Why a run has stopped; from NOWHERE on what keeps one from beginning: the guess has no finite residual, it is the solution, a row has a negative
- * diagonal, the hint refuses. */
+/* Why a run has stopped. From NOWHERE on, why it does not begin: the guess has no finite residual,
+ * the guess is the solution, a row has a negative diagonal, the hint refuses. */
 enum {
     GOING,
     REACHED,
@@ -24,7 +24,8 @@ enum {
     REFUSED
 };
 
-/* Of a true residual: squares of it and of the right side; its largest element by the weights, and 1 if one is NaN or infinite. */
+/* Of a true residual: sum of its squares and of those of the right side; its largest weighted
+ * element; 1 if an element is NaN or infinite. */
 typedef struct mps__cg_checked {
     mps_exact squares, rhs_squares;
     double largest, poison;
@@ -33,22 +34,23 @@ typedef struct mps__cg_checked {
 /* Of the right side and the first guess. */
 typedef struct mps__cg_begun {
     mps_exact rhs_squares;
-    double poison;   /* 1: the guess has NaN or infinity */
-    double negative; /* largest of the negative diagonal */
+    double poison;   /* 1: the guess contains NaN or infinity */
+    double negative; /* largest absolute value of a negative diagonal entry */
 } mps__cg_begun;
 
-/* On the device; a wait brings them to the host. */
+/* Numbers on the device; fetch() copies them to the host. */
 typedef struct mps__cg_numbers {
     int64_t stop; /* `unless` of the launches of a run */
-    /* `unless` of the launches behind it: not 0 while it goes on, if it did not begin, and once they have run */
+    /* `unless` of the launches after a run: not 0 while the run continues, if it did not begin, and
+     * once they have run */
     int64_t over;
     int64_t iterations;
     double rz; /* r'z */
     double alpha, beta;
     double curvature; /* p'Ap */
-    /* the run stops where the residual is at most `delta` times above its limits */
+    /* the run stops when the residual is at most `delta` times its limits */
     double norm_limit, delta;
-    double residual[2], divergence[2]; /* of the first guess, and now */
+    double residual[2], divergence[2]; /* of the first guess; current */
     double seen;                       /* of the hint */
 } mps__cg_numbers;
 
@@ -59,10 +61,10 @@ typedef struct mps__cg_room {
     mps__cg_begun begun;
     mps__cg_checked checked;
     mps__reduced got;
-    double poison; /* 1: the correction has NaN or infinity */
+    double poison; /* 1: the correction contains NaN or infinity */
 } mps__cg_room;
 
-/* What a loop works on; each uses its own. */
+/* Arguments of the loops. */
 typedef struct mps__cg_recurrence {
     mps__cg_numbers *n;
     const mps__cg_begun *begun;
@@ -83,7 +85,7 @@ typedef struct mps__cg_recurrence {
     bool preconditioned;
 } mps__cg_recurrence;
 
-/* What is decided. */
+/* Decisions. */
 enum { WHETHER_TO_BEGIN, WHETHER_TO_GO_ON, WHETHER_TO_STOP, DIRECTION, STEP };
 
 /* One solution in progress. */
@@ -108,7 +110,7 @@ static inline void mps__cg_queue_values(const mps__cg_solving *s, const mps__val
     mps__values_gather(s->device, values, MPS__ANY_DIM, s->n, &s->f, to);
 }
 
-/* As mps_ppe_check() says, of the residual that was checked. Returns the excess. */
+/* Evaluates a checked residual as mps_ppe_check() does. Returns the excess. */
 MPS_ROW double mps__cg_note_residual(const mps__cg_recurrence *f, int of)
 {
     const mps__cg_checked *c = f->checked;
@@ -120,7 +122,7 @@ MPS_ROW double mps__cg_note_residual(const mps__cg_recurrence *f, int of)
                           f->divergence_limit);
 }
 
-/* Queue what decides by one number. */
+/* Queue a decision. */
 void mps__cg_queue_decision(mps__cg_solving *s, int32_t decision);
 /* Queue an iteration. Returns 0 or a reason of failure of the host. */
 int mps__cg_queue_iteration(mps__cg_solving *s);

@@ -5,10 +5,11 @@
 #include <stdlib.h>
 #include <sunlinsol/sunlinsol_spgmr.h>
 
-enum { CYCLE = 30 }; /* iterations between restarts = vectors kept */
+enum { CYCLE = 30 }; /* iterations between restarts = number of stored vectors */
 
-/* The rows of the Hessenberg matrix, which SUNLinSolInitialize() makes where they are not there. Where memory runs out among them it leaves
- * pointers of no value, at which SUNLinSolFree() crashes (SUNDIALS 6.4.1 to 7.5). SUNDIALS gives them back by free(). */
+/* Allocates the rows of the Hessenberg matrix, which SUNLinSolInitialize() would allocate
+ * otherwise. If memory runs out there, it leaves invalid pointers, at which SUNLinSolFree() crashes
+ * (SUNDIALS 6.4.1 to 7.5). SUNDIALS frees the rows with free(). */
 static bool make_rows(SUNLinearSolverContent_SPGMR content)
 {
     content->Hes = calloc(CYCLE + 1, sizeof *content->Hes);
@@ -33,7 +34,8 @@ static int run(SUNLinearSolver solver, bool preconditioned, int iterations, N_Ve
     /* the driver preconditions inside the product */
     (void)preconditioned;
     int *cycle = &((SUNLinearSolverContent_SPGMR)solver->content)->maxl;
-    /* whole cycles first; the driver comes back for the rest. The length must be restored: memory is freed by it */
+    /* Run whole cycles first; the driver calls again for the rest. The length must be restored: it
+     * determines how much memory is freed. */
     if (iterations < CYCLE) *cycle = iterations;
     SUNLinSol_SPGMRSetMaxRestarts(solver, iterations < CYCLE ? 0 : iterations / CYCLE - 1);
     int flag = SUNLinSolSolve(solver, NULL, x, b, delta);

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* ic0: incomplete Cholesky factorisation without fill, M = U' D U with U unit upper triangular in single precision. Most of
- * the dropped fill goes to the diagonal, which keeps smooth pressures right. One thread: each row needs the one before. */
+/* ic0: incomplete Cholesky factorisation without fill, M = U' D U with U unit upper triangular in
+ * single precision. Most of the dropped fill is added to the diagonal, which preserves smooth
+ * pressures. It runs on one thread, since each row needs the previous ones. */
 #include "builtin.h"
 #include "kernels.h"
 #include <math.h>
 
 enum { TRIES = 12 };
-static const double kept_fill = 0.97; /* share of the dropped fill moved to the diagonal */
+static const double kept_fill = 0.97; /* fraction of the dropped fill added to the diagonal */
 
 typedef struct ic0 {
     mps_allocator allocator;
@@ -16,7 +17,7 @@ typedef struct ic0 {
     float *upper;    /* [row[n]] U without its diagonal of ones */
     double *inverse; /* [n] 1/D */
     double *work;    /* [n] row in progress */
-    int32_t *mark;   /* [n] last row whose pattern holds this column */
+    int32_t *mark;   /* [n] last row whose pattern contains this column */
 } ic0;
 
 static int create(const mps_allocator *allocator, void **self)
@@ -79,7 +80,7 @@ static bool reserve_entries(ic0 *f, int64_t entries)
     return f->entry_capacity > 0;
 }
 
-/* Row of the matrix into `work`. */
+/* Scatter a matrix row into `work`. */
 static void scatter(ic0 *f, const mps_ppe_problem *problem, int64_t i)
 {
     f->mark[i] = (int32_t)i;
@@ -91,7 +92,7 @@ static void scatter(ic0 *f, const mps_ppe_problem *problem, int64_t i)
     }
 }
 
-/* Subtract what row j < i of U contributes to row i. @return the fill that fell outside the pattern */
+/* Subtract the contribution of row j < i of U from row i. @return fill outside the pattern */
 static double eliminate(ic0 *f, int64_t i, int32_t j)
 {
     double a = f->work[j], dropped = 0; /* a = D_j U_ji */
@@ -129,8 +130,8 @@ static bool factorise(ic0 *f, const mps_ppe_problem *problem, double shift)
         double diagonal = problem->diagonal[i], dropped = 0;
         scatter(f, problem, i);
         f->mark[i] = (int32_t)i;
-        if (diagonal == 0)
-            diagonal = 1; /* an empty row is a particle without neighbours, its residual is 0 */
+        /* an empty row is a particle without neighbours; its residual is 0 */
+        if (diagonal == 0) diagonal = 1;
         f->work[i] = diagonal * (1 + shift);
         for (int64_t k = problem->row[i]; k < problem->row[i + 1] && problem->col[k] < i; k++)
             dropped += eliminate(f, i, problem->col[k]);

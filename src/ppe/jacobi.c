@@ -22,7 +22,7 @@ static int create(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-/* The array lies where the loops over it run. */
+/* Allocate the array in the memory space of the loops over it. */
 static void settle(jacobi *j, const mps_parallel *parallel)
 {
     mps__device *d = mps__device_of(parallel);
@@ -49,7 +49,7 @@ static bool reserve(jacobi *j, int64_t n)
     return j->inverse;
 }
 
-/* What is wrong with the diagonal. */
+/* Checks of the diagonal. */
 enum { POISON, NEGATIVE, VALUES };
 
 typedef struct operands {
@@ -57,7 +57,7 @@ typedef struct operands {
     double *z;
 } operands;
 
-/* An empty row is a particle without neighbours, its residual is 0. */
+/* An empty row is a particle without neighbours; its residual is 0. */
 MPS_ROW double inverse_of(double d)
 {
     return d > 0 ? 1 / d : 1;
@@ -89,7 +89,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     j->parallel = problem->parallel;
     double found[VALUES] = {0};
     const operands rows = {.x = problem->diagonal, .z = j->inverse};
-    /* a solver whose sums stay there does not begin with what is looked for below */
+    /* the solver on a device does not begin if the diagonal fails the checks below */
     if (mps__device_of(problem->parallel) && !problem->ranks) {
         mps__loop_run(problem->parallel, &invert_rows_there, MPS__ANY_DIM, problem->n, &rows);
         return 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory, reductions, row products and the null space: what all solvers share. */
+/* Memory, reductions, matrix-vector products and the null space: shared by all solvers. */
 #define _POSIX_C_SOURCE 200809L
 #include "kernels.h"
 #include "loop.h"
@@ -26,7 +26,6 @@ bool mps__on_any_rank(const mps_ppe_problem *problem, bool here)
     return any > 0;
 }
 
-/* Rows of the matrix. */
 typedef struct product {
     const int64_t *row;
     const int32_t *col;
@@ -35,7 +34,7 @@ typedef struct product {
     double *y;
 } product;
 
-/* Four sums: one would wait for each addition. */
+/* Four partial sums: with a single one each addition would wait for the previous one. */
 MPS_ROW double row_dot(const float *val, const int32_t *col, int64_t count, const double *x)
 {
     double s[4] = {0};
@@ -55,7 +54,7 @@ MPS_ROW void multiply_row(const int dim, const product *m, int64_t i, double *va
     values[0] = m->x[i] * m->y[i];
 }
 
-/* Blocks: their products are summed while they are in cache. */
+/* In blocks: products are summed while they are in cache. */
 static void multiply_range(const product *m, int64_t begin, int64_t end, mps_exact *sum,
                            double *none)
 {
@@ -173,10 +172,11 @@ double mps__result_excess(const mps_ppe_problem *problem, const mps_ppe_result *
 
 int mps__progress_after(mps__progress *p, double excess, int failure)
 {
-    enum { IDLE_PASSES = 4 }; /* before giving up */
+    enum { IDLE_PASSES = 4 }; /* passes without progress before giving up */
     const bool first = p->passes++ == 0, better = excess < 0.9 * p->best;
     if (excess <= 1) return MPS_PPE_CONVERGED;
-    /* a recurrence that broke down on its way, or at the floor of rounding, may start afresh from what it reached */
+    /* a recurrence that broke down, or reached the level of rounding, may restart from its last
+     * result */
     if (failure && (failure != MPS_PPE_BREAKDOWN || (first && !better))) return failure;
     p->idle = better ? 0 : p->idle + 1;
     if (excess < p->best) p->best = excess;

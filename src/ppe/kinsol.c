@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* sundials.kinsol: Newton's method with conjugate gradients inside, for a gas whose rows are nonlinear; a linear problem takes one step.
- *   F(p) = A p + gas (f(p) - p) - b,   J = A + gas (f'(p) - 1).
- * J is an M-matrix and F is concave, so the first full step lands below the solution and the others rise to it from any guess (Newton's
- * theorem of monotone convergence): no line search is needed, and no bound on p, because mps_ppe_law() is finite everywhere.
+/* sundials.kinsol: Newton's method with inner conjugate gradients, for a gas whose rows are
+ * nonlinear; a linear problem takes one step.
+ *      F(p) = A p + gas (f(p) - p) - b,   J = A + gas (f'(p) - 1).
+ * J is an M-matrix and F is concave, so the first full step gives p below the solution, and the
+ * following steps increase it to the solution from any guess (monotone convergence of Newton's
+ * method). No line search and no bound on p are needed, because mps_ppe_law() is finite everywhere.
  *
- * All norms are "how far above the limits": the scaling vector of F is the stopping vector (vector.h), so KINSOL and its linear solver
- * both stop at 1, and a step is solved no deeper than that asks for. */
+ * All norms are excesses over the limits: the scaling vector of F is the stopping vector
+ * (vector.h), so that KINSOL and its linear solver both stop at 1, and a step is not solved deeper
+ * than needed. */
 #include "builtin.h"
 #include "kernels.h"
 #include <kinsol/kinsol.h>
@@ -14,7 +17,7 @@
 #include <sunlinsol/sunlinsol_pcg.h>
 #include "vector.h"
 
-enum { CLONES = 9, MOST_STEPS = 60 }; /* KINSOL asks for 5 vectors, conjugate gradients for 4 */
+enum { CLONES = 9, MOST_STEPS = 60 }; /* KINSOL clones 5 vectors, conjugate gradients 4 */
 static const double DEEPEST = 1e-10;  /* residual reduction of one linear solution */
 
 typedef struct newton {
@@ -24,8 +27,8 @@ typedef struct newton {
     SUNLinearSolver solver;
     N_Vector p, one, stop;
     double *start, *residual, *inner, *slope, *ones; /* [capacity] */
-    double *diagonal,
-        *shift; /* diagonal and row sums of J at the first guess, for the preconditioner */
+    /* diagonal and row sums of J at the first guess, for the preconditioner */
+    double *diagonal, *shift;
     mps__component *sums; /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
@@ -33,12 +36,12 @@ typedef struct newton {
     mps_ppe_problem first; /* the linear problem of the first step */
     const mps_preconditioner_ops *pc;
     void *pc_self;
-    int failure; /* reason found by a callback, 0: none */
+    int failure; /* failure in a callback, 0: none */
     bool pc_ready;
     double setup_seconds;
 } newton;
 
-/* ---- callbacks of SUNDIALS: negative stops the solver ---- */
+/* ---- callbacks of SUNDIALS: a negative value stops the solver ---- */
 
 static int residual(N_Vector vp, N_Vector vf, void *data)
 {
@@ -48,12 +51,12 @@ static int residual(N_Vector vp, N_Vector vf, void *data)
     mps__vector_written(vf);
     mps_ppe_check(k->problem, mps__vector_data(vp), f, &unused);
     for (int64_t i = 0; i < k->space.n; i++) f[i] = -f[i];
-    /* rounding must not leave what no p can produce */
+    /* remove the part in the null space, which rounding leaves */
     mps__components_center(k->problem, f, k->sums);
     return 0;
 }
 
-/* gas (f' - 1), what J has on its diagonal beside A. */
+/* gas (f' - 1), the diagonal of J minus that of A. */
 static void set_slope(newton *k, const double *p)
 {
     for (int64_t i = 0; i < k->space.n; i++) {
@@ -83,7 +86,8 @@ static int times(N_Vector vx, N_Vector vy, N_Vector vp, sunbooleantype *changed,
     return k->failure ? -1 : 0;
 }
 
-/* Before each step: what is left of the iterations, the slopes at p, and once the preconditioner. */
+/* Before each step: remaining iterations, slopes at p, and once the set-up of the
+ * preconditioner. */
 static int begin_step(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, void *data)
 {
     (void)scale, (void)f, (void)f_scale;
@@ -101,7 +105,7 @@ static int begin_step(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale,
     return k->failure ? -1 : 0;
 }
 
-/* z = M^-1 r in the place of r. */
+/* Replace r by z = M^-1 r. */
 static int precondition(N_Vector vp, N_Vector scale, N_Vector f, N_Vector f_scale, N_Vector vr,
                         void *data)
 {
@@ -133,7 +137,7 @@ static void drop_arrays(newton *k)
     k->space.capacity = 0;
 }
 
-/* Arrays of this length, here and in all vectors. */
+/* Allocate the arrays of the solver and of all vectors, of this length. */
 static bool make_arrays(newton *k, int64_t capacity)
 {
     const mps_allocator *a = &k->space.allocator;
@@ -149,7 +153,7 @@ static bool make_arrays(newton *k, int64_t capacity)
     return mps__space_grow(&k->space, capacity);
 }
 
-/* All that SUNDIALS allocates, made once and before the first step. */
+/* Make all objects that SUNDIALS allocates, once, before the first step. */
 static bool make_solver(newton *k)
 {
     k->space.context = mps__sundials_context(k->log);
@@ -180,7 +184,7 @@ static bool make_sums(newton *k, int64_t components)
     return true;
 }
 
-/* Room for a problem; kept for the next one. */
+/* Workspace for a problem, reused by the next one. */
 static bool prepare(newton *k, const mps_ppe_problem *problem)
 {
     k->space.n = problem->n;
@@ -209,7 +213,8 @@ static void linearise(newton *k, const double *p)
     k->first.gas = k->first.law = NULL;
 }
 
-/* How deep each step is solved: a linear problem at once to the end, others as Eisenstat and Walker 1996 have it, their choice 2. */
+/* Depth of the linear solution of each step: a linear problem at once to its limits, others after
+ * Eisenstat and Walker 1996, choice 2. */
 static void set_forcing(newton *k, double excess)
 {
     KINSetEtaForm(k->kinsol, k->problem->law ? KIN_ETACHOICE2 : KIN_ETACONSTANT);
@@ -233,7 +238,7 @@ static int run(newton *k, double *p, mps_ppe_result *result)
     mps_ppe_check(k->problem, p, k->residual, result);
     if (mps__result_excess(k->problem, result) <= 1) return MPS_PPE_CONVERGED;
     if (flag == KIN_MEM_FAIL) return MPS_PPE_NOMEM;
-    /* a recurrence that broke down at the floor of rounding has done what it could */
+    /* a recurrence that broke down at the level of rounding counts as an unfinished solution */
     return k->failure == MPS_PPE_BREAKDOWN || !k->failure ? MPS_PPE_MAX_ITERATIONS : k->failure;
 }
 

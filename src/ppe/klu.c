@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* sundials.klu: sparse direct solution, the yardstick for the iterative solvers; memory and time grow fast in 3-D. */
+/* sundials.klu: sparse direct solution, the reference for the iterative solvers; memory and time
+ * grow fast in 3-D. */
 #include "builtin.h"
 #include "kernels.h"
 #include "sundials_compat.h"
@@ -16,12 +17,12 @@ typedef struct klu {
     SUNContext context;
 } klu;
 
-/* What one solution holds; the pattern changes every step, so nothing is kept. */
+/* Data of one solution; the pattern changes every step, so that nothing is kept. */
 typedef struct job {
     const mps_ppe_problem *problem;
     double *residual, *correction, *start;
     mps__component *sums;
-    int32_t *pin; /* [components] the unknown that is held at 0 */
+    int32_t *pin; /* [components] the unknown that is fixed at 0 */
     SUNMatrix matrix;
     N_Vector x, b;
     SUNLinearSolver solver;
@@ -79,7 +80,7 @@ static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
     return j->matrix && j->x && j->b;
 }
 
-/* The first unknown of each singular component. */
+/* Choose the first unknown of each singular component. */
 static void choose_pins(const job *j)
 {
     const mps_ppe_problem *problem = j->problem;
@@ -95,8 +96,8 @@ static bool pinned(const job *j, int64_t i)
     return component && component[i] >= 0 && j->pin[component[i]] == i;
 }
 
-/* Rows and columns of pinned unknowns become those of the unit matrix (scaled): the equation left out is the sum of the
- * component's others, and p = 0 there is undone by taking off the mean. */
+/* Rows and columns of fixed unknowns become those of the unit matrix (scaled): the removed equation
+ * is the sum of the component's others, and subtracting the mean removes the effect of p = 0. */
 static void fill_matrix(const job *j)
 {
     const mps_ppe_problem *problem = j->problem;
@@ -107,7 +108,7 @@ static void fill_matrix(const job *j)
     for (int64_t i = 0; i < problem->n; i++) {
         const double d = problem->diagonal[i];
         row[i] = at;
-        col[at] = i; /* columns need no order */
+        col[at] = i; /* columns need not be sorted */
         val[at++] = pinned(j, i) && !(d > 0) ? 1 : d;
         if (pinned(j, i)) continue;
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
@@ -119,7 +120,7 @@ static void fill_matrix(const job *j)
     row[problem->n] = at;
 }
 
-/* Reason behind a failed call of KLU. */
+/* Reason of a failed call of KLU. */
 static int failure(const job *j)
 {
     return SUNLinSol_KLUGetCommon(j->solver)->status == KLU_OUT_OF_MEMORY ? MPS_PPE_NOMEM
@@ -139,7 +140,8 @@ static int factorise(const klu *k, job *j, mps_ppe_result *result)
     return flag ? failure(j) : 0;
 }
 
-/* Add the solution of A d = b - A p to p; again while the rounding of a 1000:1 matrix leaves a residual. */
+/* Add the solution of A d = b - A p to p; repeat while the rounding of a 1000:1 matrix leaves a
+ * residual. */
 static int refine(job *j, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = j->problem;
@@ -161,7 +163,7 @@ static int attempt(const klu *k, job *j, double *p, mps_ppe_result *result)
     const mps_ppe_problem *problem = j->problem;
     size_t bytes = (size_t)problem->n * sizeof *p;
     memcpy(j->start, p, bytes);
-    memset(p, 0, bytes); /* a direct solver gains nothing from a guess */
+    memset(p, 0, bytes); /* a direct solver does not use a guess */
     mps_ppe_check(problem, p, j->residual, result);
     int reason = isfinite(result->residual) ? 0 : MPS_PPE_NAN;
     if (!reason && result->residual == 0) return MPS_PPE_CONVERGED;

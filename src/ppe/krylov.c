@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Driver of the iterative solvers. Each pass solves A d = b - A p from d = 0 and adds d to p. A SUNDIALS solver stops on
- * its own, recursive residual; passes go on until the true one is small in both norms. */
+/* Driver of the iterative solvers. Each pass solves A d = b - A p from d = 0 and adds d to p. A
+ * SUNDIALS solver stops on its recursive residual; passes are repeated until the true residual is
+ * small in both norms. */
 #include "krylov.h"
 #include "cg.h"
 #include "kernels.h"
@@ -13,18 +14,18 @@ typedef struct krylov {
     SUNLinearSolver solver;
     N_Vector x, b, stop;
     double *start, *residual, *correction, *inner; /* [capacity] */
-    void *room;                                    /* of the run on a device; NULL: on the host */
-    mps__component *sums;                          /* [sum_capacity] */
+    void *room;           /* workspace of the run on a device; NULL: on the host */
+    mps__component *sums; /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
     const mps_ppe_problem *problem;
     const mps_preconditioner_ops *pc;
     void *pc_self;
     mps__pcg_hint *hint; /* NULL: none */
-    int failure;         /* reason found by a callback, 0: none */
+    int failure;         /* failure in a callback, 0: none */
 } krylov;
 
-/* ---- callbacks of SUNDIALS: non-zero stops the solver ---- */
+/* ---- callbacks of SUNDIALS: a non-zero value stops the solver ---- */
 
 static int apply(krylov *k, const double *r, double *z)
 {
@@ -32,7 +33,7 @@ static int apply(krylov *k, const double *r, double *z)
     return k->failure ? -1 : 0;
 }
 
-/* z = A v, or A M^-1 v where the method leaves preconditioning to us. */
+/* z = A v, or A M^-1 v for methods that do not precondition themselves. */
 static int times(void *data, N_Vector v, N_Vector z)
 {
     krylov *k = data;
@@ -52,7 +53,7 @@ static int times(void *data, N_Vector v, N_Vector z)
     return k->failure ? -1 : 0;
 }
 
-/* z = M^-1 r inside conjugate gradients, which need r'z > 0. */
+/* z = M^-1 r in conjugate gradients, which need r'z > 0. */
 static int precondition(void *data, N_Vector vr, N_Vector vz, sunrealtype tolerance, int side)
 {
     (void)tolerance, (void)side;
@@ -83,13 +84,14 @@ static void drop_arrays(krylov *k)
     k->space.capacity = 0;
 }
 
-/* Whether a problem is solved by conjugate gradients whose sums stay on a device. Those of many ranks come and are joined. */
+/* Whether a problem is solved by conjugate gradients whose sums stay on a device. On many ranks the
+ * host reduces the sums. */
 static bool stays_there(const krylov *k, const mps_ppe_problem *problem)
 {
     return k->kind->symmetric && mps__device_of(problem->parallel) && !problem->ranks;
 }
 
-/* Arrays of this length, here and in all vectors. */
+/* Allocate the arrays of the solver and of all vectors, of this length. */
 static bool make_arrays(krylov *k, int64_t capacity, bool stays)
 {
     const mps_allocator *a = &k->space.arrays;
@@ -106,7 +108,7 @@ static bool make_arrays(krylov *k, int64_t capacity, bool stays)
     return mps__space_grow(&k->space, capacity);
 }
 
-/* Arrays lie where the loops over them run. */
+/* Arrays are in the memory space of the loops over them. */
 static void settle(krylov *k, const mps_parallel *parallel)
 {
     mps__device *d = mps__device_of(parallel);
@@ -127,7 +129,7 @@ void mps__krylov_expect(void *self, mps__pcg_hint *hint)
     k->hint = hint;
 }
 
-/* All that SUNDIALS allocates, made once and before the first step. */
+/* Make all objects that SUNDIALS allocates, once, before the first step. */
 static bool make_solver(krylov *k)
 {
     k->space.context = mps__sundials_context(k->log);
@@ -155,7 +157,7 @@ static bool make_sums(krylov *k, int64_t components)
     return true;
 }
 
-/* Room for a problem; kept for the next one. */
+/* Workspace for a problem, reused by the next one. */
 static bool prepare(krylov *k, const mps_ppe_problem *problem)
 {
     settle(k, problem->parallel);
@@ -182,13 +184,13 @@ static int run_sundials(krylov *k, int iterations, double delta)
     return SUNLinSolNumIters(k->solver);
 }
 
-/* One run of the method on A d = residual; p takes d. */
+/* One run of the method on A d = residual; adds d to p. */
 static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = k->problem;
     double *d = k->correction;
     mps__vectors_clear(problem->parallel, problem->n, d);
-    /* rounding must not leave what no p can produce */
+    /* remove the part in the null space, which rounding leaves */
     mps__components_center(problem, k->residual, k->sums);
     k->failure = 0;
     const int left = problem->max_iterations - result->iterations;
@@ -204,8 +206,8 @@ static void run(krylov *k, double *p, double delta, mps_ppe_result *result)
     mps_ppe_check(problem, p, k->residual, result);
 }
 
-/* Residual limit of the next run. Conjugate gradients measure the excess itself, the others the 2-norm. Where the first
- * limit has proved too loose it aims a factor below. */
+/* Residual limit of the next run. Conjugate gradients measure the excess itself, the other methods
+ * the 2-norm. If the first limit has been too loose, the next one is lower by a factor. */
 static double next_limit(const krylov *k, const mps_ppe_result *result, double norm, bool first)
 {
     double excess = mps__result_excess(k->problem, result);
@@ -259,7 +261,7 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
     return reason;
 }
 
-/* All of it on a device. */
+/* The whole solution on a device. */
 static int attempt_there(krylov *k, double *p, mps_ppe_result *result)
 {
     mps__cg c = {.problem = k->problem,

@@ -1,16 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the iterative SUNDIALS solvers have in common: correction passes until the true residual meets both limits. */
+/* Common part of the iterative SUNDIALS solvers: correction passes until the true residual meets
+ * both limits. */
 #ifndef MPS_PPE_KRYLOV_H
 #define MPS_PPE_KRYLOV_H
 
 #include "builtin.h"
 #include "vector.h"
 
-/* What sets one method apart. */
+/* Properties of one method. */
 typedef struct mps__krylov_kind {
-    /* 1: conjugate gradients: preconditions by itself, asks the stopping vector, needs positive curvature */
+    /* 1: conjugate gradients: it preconditions itself, uses the stopping vector, needs positive
+     * curvature */
     bool symmetric;
-    int vectors; /* clones `make` and the first run ask for */
+    int vectors; /* number of clones that `make` and the first run need */
     SUNLinearSolver (*make)(N_Vector like, SUNContext context);
     /* Solve for x from zero until the residual is at most delta or `iterations` are used. */
     int (*run)(SUNLinearSolver solver, bool preconditioned, int iterations, N_Vector x, N_Vector b,
@@ -22,7 +24,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
                        void *pc_self, double *p, mps_ppe_result *result);
 /* mps__pcg_expect() */
 void mps__krylov_expect(void *self, mps__pcg_hint *hint);
-/* What it has on a device is given back. */
+/* Free device memory. */
 void mps__krylov_leave(void *self);
 void mps__krylov_destroy(const mps_allocator *allocator, void *self);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The one place that knows which SUNDIALS this is: 6.x (Debian has 6.4.1) or 7.x. */
+/* The only place that depends on the version of SUNDIALS: 6.x (Debian has 6.4.1) or 7.x. */
 #ifndef MPS_PPE_SUNDIALS_COMPAT_H
 #define MPS_PPE_SUNDIALS_COMPAT_H
 
@@ -20,14 +20,15 @@
 #error "libmps needs SUNDIALS in double precision"
 #endif
 
-/* What a linear solver returns when it has converged: SUNLS_SUCCESS until 6.x. */
+/* Return value of a converged linear solver: SUNLS_SUCCESS until 6.x. */
 #if SUNDIALS_VERSION_MAJOR >= 7
 enum { MPS__SUNDIALS_SUCCESS = SUN_SUCCESS };
 #else
 enum { MPS__SUNDIALS_SUCCESS = SUNLS_SUCCESS };
 #endif
 
-/* Hand an error to the log. The ends that an iteration may have are no errors: the reason of the result says them. */
+/* Log an error. The usual ends of an iteration are no errors: the reason of the result states
+ * them. */
 static inline void mps__sundials_report(const mps__solver_log *log, int code, const char *function,
                                         const char *text)
 {
@@ -57,7 +58,7 @@ static inline void mps__sundials_error(int code, const char *module, const char 
 }
 #endif
 
-/* A context without MPI that never prints, or NULL. */
+/* A context without MPI that does not print, or NULL. */
 static inline SUNContext mps__sundials_context(const mps__solver_log *log)
 {
     SUNContext context = NULL;
@@ -67,13 +68,13 @@ static inline SUNContext mps__sundials_context(const mps__solver_log *log)
     if (SUNContext_PushErrHandler(context, mps__sundials_error, (void *)(uintptr_t)log))
         SUNContext_Free(&context);
 #else
-    (void)log; /* errors are KINSOL's, which has a handler of its own */
+    (void)log; /* errors are those of KINSOL, which has its own handler */
     if (SUNContext_Create(NULL, &context)) return NULL;
 #endif
     return context;
 }
 
-/* KINSOL's memory; it never prints either. NULL when memory is out. */
+/* KINSOL's memory, without printing. NULL: out of memory. */
 static inline void *mps__kinsol_create(SUNContext context, const mps__solver_log *log)
 {
     void *kinsol = KINCreate(context);

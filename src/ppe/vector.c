@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The operations of mps__space's vectors; see vector.h. */
+/* Operations of the vectors of mps__space; see vector.h. */
 #include "vector.h"
 #include "kernels.h"
 #include <math.h>
@@ -7,8 +7,8 @@
 typedef struct content {
     mps__space *space;
     double *data;
-    N_Vector next;       /* in the list of spare ones */
-    N_Vector next_owned; /* in the list of those with an array of their own */
+    N_Vector next;       /* in the list of spare vectors */
+    N_Vector next_owned; /* in the list of vectors that own their array */
     bool owned, stop;
 } content;
 
@@ -37,7 +37,7 @@ static sunindextype get_length(N_Vector v)
     return (sunindextype)(ranks ? ranks->rows : space->n);
 }
 
-/* Take a vector off the list of those with an array of their own. */
+/* Remove a vector from the list of those that own their array. */
 static void forget(mps__space *space, N_Vector v)
 {
     N_Vector *at = &space->owned;
@@ -123,7 +123,7 @@ static void product(N_Vector x, N_Vector y, N_Vector vz)
     mps__space *s = written(vz);
     double *z = mps__vector_data(vz);
     if (content_of(x)->stop || content_of(y)->stop) {
-        /* z is only the scratch of "may I stop?", so its norm is all that is needed */
+        /* z is only workspace of the stopping test: only its norm is needed */
         const double e = excess(s, data(content_of(x)->stop ? y : x));
         mps__space_remember(s, z, z, e * e);
         return;
@@ -162,8 +162,8 @@ static sunrealtype largest_norm(N_Vector vx)
 {
     const mps__space *space = content_of(vx)->space;
     const double *x = data(vx);
-    if (x == space->dot_x && x == space->dot_y)
-        return sqrt(space->dot); /* a vector that N_VProd made of the stopping vector */
+    /* a vector that N_VProd computed from the stopping vector */
+    if (x == space->dot_x && x == space->dot_y) return sqrt(space->dot);
     return mps__vectors_largest(space->problem, x, 0, 0);
 }
 

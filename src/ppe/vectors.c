@@ -5,14 +5,13 @@
 #include "loop.h"
 #include <math.h>
 
-/* What a loop works on; each uses its own. */
 typedef struct operands {
     double a, b;
     const double *x, *y;
     double *z;
 } operands;
 
-/* Loops of next to nothing a row. */
+/* Loops with little work a row. */
 static void run(const mps_parallel *p, const mps__loop *loop, int64_t n, const operands *o)
 {
     mps__loop_run_cheap(p, loop, MPS__ANY_DIM, n, o);
@@ -117,7 +116,7 @@ void mps__vectors_clear(const mps_parallel *p, int64_t n, double *z)
 
 /* ---- sums and maxima ---- */
 
-/* Over the rows of all ranks. */
+/* Reduce over the rows of all ranks. */
 static void reduce(const mps_ppe_problem *problem, const mps__values *values, const operands *o,
                    mps_exact *sum, double *maximum)
 {
@@ -177,7 +176,7 @@ MPS_ROW void norm_row(const int dim, const operands *o, int64_t i, double *value
     if (size > values[1]) values[1] = size;
 }
 
-/* Blocks: they are summed while they are in cache. */
+/* In blocks: elements are summed while they are in cache. */
 static void norm_range(const operands *o, int64_t begin, int64_t end, mps_exact *squares,
                        double *largest)
 {

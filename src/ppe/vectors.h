@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops over the elements of vectors, on the host or on a device: that of the parallel-for, where the arrays are then. Arrays are the same or apart. */
+/* Loops over the elements of vectors, in the memory space of the parallel-for and of the arrays:
+ * host or device. Arrays are identical or do not overlap. */
 #ifndef MPS_PPE_VECTORS_H
 #define MPS_PPE_VECTORS_H
 
@@ -28,21 +29,21 @@ void mps__vectors_inverse(const mps_parallel *p, int64_t n, const double *x, dou
 void mps__vectors_copy(const mps_parallel *p, int64_t n, const double *x, double *z);
 void mps__vectors_clear(const mps_parallel *p, int64_t n, double *z);
 
-/* Over the rows of all ranks: sum of x y; of (x y)^2. */
+/* Over the rows of all ranks: sum of x y; sum of (x y)^2. */
 double mps__vectors_dot(const mps_ppe_problem *problem, const double *x, const double *y);
 double mps__vectors_squares(const mps_ppe_problem *problem, const double *x, const double *y);
-/* Sum of x^2 and largest |x weight|, which no NaN is; weight NULL: 0. */
+/* Sum of x^2, and largest |x weight|, without NaNs; weight NULL: 0. */
 void mps__vectors_norms(const mps_ppe_problem *problem, const double *x, const double *weight,
                         double *squares, double *largest);
-/* Asynchronous reductions on the device whose parallel-for the problem has: `to` is an address of
- * the device. */
+/* Asynchronous reductions on the device of the problem's parallel-for: `to` is an address of the
+ * device. */
 typedef struct mps__reduced {
     mps_exact sum;
     double largest;
 } mps__reduced;
 void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
                              mps__reduced *to);
-/* Largest of factor x, or of |x| if the factor is 0; not below `least`. A NaN does not count. */
+/* Largest of factor x, or of |x| if the factor is 0; not below `least`. NaNs do not count. */
 double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, double factor,
                             double least);
 /* Whether an element is NaN or infinite. */

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The module that mps and the drivers load for --mpi: all that they ask of MPI. */
+/* The module that mps and the drivers load for --mpi: all of MPI that they need. */
 #include <mps/job.h>
 #include <mps/mpi.h>
 #include <sched.h>
@@ -20,7 +20,7 @@ static mps_status attach(void *user, mps_sim *sim)
     return mps_mpi_attach(sim, MPI_COMM_WORLD);
 }
 
-/* Leave the processor to other ranks, which may share it; rank 0 may be writing for a while. */
+/* Yield the processor to other ranks, which may share it; rank 0 may write files for a while. */
 static void rest(int turn)
 {
     const struct timespec moment = {.tv_nsec = 50000};
@@ -30,7 +30,7 @@ static void rest(int turn)
         nanosleep(&moment, NULL);
 }
 
-/* Wait for a message, for ever if seconds is 0. */
+/* Wait for a message, without limit if seconds is 0. */
 static bool wait_for(MPI_Request *request, double seconds)
 {
     const double start = MPI_Wtime();
@@ -45,7 +45,8 @@ static bool wait_for(MPI_Request *request, double seconds)
 
 static int32_t largest(void *user, int32_t count, int32_t *values, double seconds)
 {
-    static int32_t given[MOST_VALUES], most[MOST_VALUES]; /* MPI may use them after a return */
+    /* static: MPI may use them after a return */
+    static int32_t given[MOST_VALUES], most[MOST_VALUES];
     MPI_Request request;
     (void)user;
     for (int k = 0; k < count; k++) given[k] = values[k];

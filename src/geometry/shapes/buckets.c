@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Points in cells: one list a cell, threaded through the points. */
+/* Points in cells: one list per cell, linked through the points. */
 #include "buckets.h"
 #include <math.h>
 #include <mps/numbers.h>
 #include <string.h>
 
-/* More cells than this are made larger [cells]. */
+/* Largest number of cells; beyond it cells are made larger. */
 static const double most_cells = 1 << 24;
 
 static int64_t cell_along(const mps__buckets *b, int d, double x)
@@ -20,7 +20,7 @@ static int64_t cell_of(const mps__buckets *b, const int64_t k[3])
     return k[0] + b->cells[0] * (k[1] + b->cells[1] * k[2]);
 }
 
-/* Cells of a box; a side of it that is shorter than a cell counts as one. */
+/* Number of cells of a box; a side shorter than a cell counts as one. */
 static double cells_of(int32_t dim, const double *lo, const double *hi, double side)
 {
     double cells = 1;
@@ -37,8 +37,8 @@ mps_status mps__buckets_init(mps__buckets *b, mps__context *context, int32_t dim
                    "a box of %g .. %g m along axis %d: must be finite", lo[d], hi[d], d);
     const double cells = cells_of(dim, lo, hi, side);
     if (cells > most_cells) side *= mps_pow(cells / most_cells, 1.0 / dim);
-    while (cells_of(dim, lo, hi, side) > 2 * most_cells)
-        side *= 2; /* a long and thin box, whose short sides have one cell already */
+    /* a long and thin box whose short sides have one cell */
+    while (cells_of(dim, lo, hi, side) > 2 * most_cells) side *= 2;
     b->over = 1.0 / side;
     for (int d = 0; d < dim; d++) {
         b->lo[d] = lo[d];
@@ -108,7 +108,7 @@ void mps__buckets_visit(const mps__buckets *b, const double x[3], double reach, 
                 visit_cell(b, x, reach * reach, cell_of(b, k), fn, user);
 }
 
-/* The best point so far. */
+/* The nearest point so far. */
 typedef struct nearest {
     int64_t point;
     double r2;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dual contouring (Ju, Losasso, Schaefer and Warren 2002): a vertex in every cell the surface passes through, where the tangent planes
- * at the cell's edges meet, so that edges and corners of the solid stay sharp; a patch across every edge of the grid that is cut. */
+/* Dual contouring (Ju, Losasso, Schaefer and Warren 2002). Each cell that the surface intersects
+ * has a vertex at the intersection of the tangent planes at the cell's edges, so that edges and
+ * corners of the solid stay sharp; each intersected grid edge has a patch. */
 #include "contour.h"
 #include <math.h>
 #include <mps/operators.h>
@@ -9,13 +10,13 @@
 enum { MARGIN = 2, SPLIT_2D = 6, SPLIT_3D = 4 };
 static const double most_nodes = 1e9, flat = 0.97, corner_volume = 0.005;
 
-/* Sums over the cuts of one cell, relative to its centre, in sides of cells. */
+/* Sums over the intersections of one cell, relative to its centre, in sides of cells. */
 typedef struct cell_sum {
     int64_t cell;
     double count, at[3], n[3], m[9], rhs[3];
 } cell_sum;
 
-/* A cut edge of the grid. */
+/* A grid edge intersected by the surface. */
 typedef struct cut {
     int64_t node; /* its lower end */
     int32_t axis;
@@ -30,7 +31,7 @@ typedef struct grid {
     double lo[3], h; /* of the first node */
     int64_t n[3], nodes;
     double *value;   /* [nodes] */
-    int32_t *number; /* [nodes] 1 + the vertex of the cell above a node, 0: none */
+    int32_t *number; /* [nodes] 1 + vertex of the cell above a node, 0: none */
     cut *cuts;
     cell_sum *sums;
     int64_t cut_count, cut_capacity, sum_count, sum_capacity;
@@ -65,7 +66,7 @@ static int64_t step_along(const grid *g, int d)
     return d == 0 ? 1 : d == 1 ? g->n[0] : g->n[0] * g->n[1];
 }
 
-/* Far from a surface whose distances are true the lattice points about say all that matters. */
+/* Far from a surface with exact distances, the surrounding lattice points are sufficient. */
 static bool is_far(const grid *g, const double x[3], double *value)
 {
     const double dp = g->shape->dp;
@@ -117,7 +118,7 @@ static mps_status grid_init(grid *g, mps__context *context, const mps__shape *sh
 
 /* ---- cells and their vertices ---- */
 
-/* Cells about an edge of the grid, by going around it. @return their number: 2 in 2-D, 4 in 3-D */
+/* Cells around a grid edge, in order. @return their number: 2 in 2-D, 4 in 3-D */
 static int cells_around(const grid *g, const cut *c, int64_t cell[4])
 {
     if (g->dim == 2) {
@@ -133,7 +134,7 @@ static int cells_around(const grid *g, const cut *c, int64_t cell[4])
     return 4;
 }
 
-/* Does a cell reach into the box? */
+/* Whether a cell extends into the box. */
 static bool in_box(const grid *g, int64_t cell)
 {
     double x[3];
@@ -145,7 +146,8 @@ static bool in_box(const grid *g, int64_t cell)
     return true;
 }
 
-/* Where the surface cuts an edge: bisection with secants, so that jumps are found as well. */
+/* Intersection of the surface with an edge: bisection with secants, so that jumps are found as
+ * well. */
 static void cut_place(const grid *g, const cut *c, double x[3])
 {
     double from = 0, to = 1, at = 0.5, low = g->value[c->node],
@@ -233,7 +235,7 @@ static mps_status find_cuts(grid *g, mps__contour *out)
         for (int d = 0; d < g->dim; d++) {
             if (k[d] + 1 >= g->n[d]) continue;
             const bool here = g->value[i] > 0, there = g->value[i + step_along(g, d)] > 0;
-            bool rim = false; /* no four cells about it */
+            bool rim = false; /* true: fewer than four cells around it */
             for (int e = 0; e < g->dim; e++)
                 rim = rim || (e != d && (k[e] == 0 || k[e] + 1 >= g->n[e]));
             if (here == there || rim) continue;
@@ -244,7 +246,8 @@ static mps_status find_cuts(grid *g, mps__contour *out)
     return MPS_OK;
 }
 
-/* How sharp the surface is within a cell: normals of a face are alike, those about an edge lie in a plane. */
+/* Sharpness of the surface within a cell: the normals of a face are parallel, those at an edge are
+ * coplanar. */
 static int32_t feature_of(const grid *g, const cell_sum *s)
 {
     const double mean = sqrt(mps__dot(s->n, s->n, g->dim)) / s->count,
@@ -256,7 +259,8 @@ static int32_t feature_of(const grid *g, const cell_sum *s)
     return volume > corner_volume * c3 ? MPS__CORNER : MPS__EDGE;
 }
 
-/* Where the tangent planes meet, starting from the mean of the cuts; that mean if it is not within the cell. */
+/* Intersection of the tangent planes, iterated from the mean of the edge intersections; that mean
+ * if it is outside the cell. */
 static void vertex_place(const grid *g, const cell_sum *s, double r[3])
 {
     const int dim = g->dim;
@@ -411,7 +415,7 @@ mps_status mps__contour_mesh(const mps__shape *shape, const mps__contour_box *bo
     mps__contour c = {0};
     mps_status status = find_vertices(&g, &c, mesh->context, shape, box);
     if (status == MPS_OK) status = fill_mesh(&g, &c, mesh);
-    mps__mesh_faults faults; /* it may end at the box */
+    mps__mesh_faults faults; /* the surface may end at the box */
     if (status == MPS_OK) status = mps__mesh_weld(mesh, 0, &faults);
     if (status == MPS_OK) status = mps__mesh_finish(mesh);
     mps__contour_free(&c, mesh->context);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distance to a surface: a tree of boxes over its elements. The side is that of the pseudonormal of what is nearest - face, edge or
- * corner; at corners the normals are weighted by angle (Baerentzen and Aanaes 2005), the only weight for which the sign is right. */
+/* Distance to a surface, with a tree of boxes over its elements. The sign is that of the
+ * pseudonormal of the nearest feature - face, edge or corner. At corners the normals are weighted
+ * by angle (Baerentzen and Aanaes 2005), the only weight with the correct sign. */
 #include "mesh.h"
 #include "angles.h"
 #include "buckets.h"
@@ -34,7 +35,7 @@ static const double *corner_of(const mps__mesh *m, int64_t e, int k)
     return m->x + 3 * (int64_t)m->corner[3 * e + k];
 }
 
-/* Twice the area times the unit normal; of a segment its length. */
+/* Unit normal times twice the area; of a segment, times its length. */
 static void face_normal(const mps__mesh *m, int64_t e, double n[3])
 {
     double a[3], b[3];
@@ -84,7 +85,7 @@ mps_status mps__mesh_reserve(mps__mesh *m, int64_t points, int64_t elements)
 
 /* ---- welding ---- */
 
-/* A point and where it came from. */
+/* A point and its original index. */
 typedef struct place {
     double x[3];
     int32_t index;
@@ -104,7 +105,7 @@ static int compare_places(const void *a, const void *b)
     return order ? order : (p->index > q->index) - (p->index < q->index);
 }
 
-/* Points with equal coordinates become one. */
+/* Merge points with equal coordinates. */
 static mps_status weld_points(mps__mesh *m)
 {
     place *p = mps__alloc(m->context, m->points, sizeof *p);
@@ -122,15 +123,15 @@ static mps_status weld_points(mps__mesh *m)
             number[p[i].index] = (int32_t)(kept - 1);
         }
         m->points = kept;
-        for (int64_t k = 0; k < 3 * m->elements; k++)
-            m->corner[k] = number[m->corner[k]]; /* in 2-D the third is 0 */
+        /* unused third corner in 2-D */
+        for (int64_t k = 0; k < 3 * m->elements; k++) m->corner[k] = number[m->corner[k]];
     }
     mps__free(m->context, p);
     mps__free(m->context, number);
     return p && number ? MPS_OK : MPS_E_NOMEM;
 }
 
-/* Triangles with two corners in one, or whose height is nothing beside their longest side. */
+/* Triangles with two equal corners, or with a height negligible relative to their longest side. */
 static bool is_degenerate(const mps__mesh *m, int64_t e)
 {
     double n[3], longest2 = 0;
@@ -145,8 +146,9 @@ static bool is_degenerate(const mps__mesh *m, int64_t e)
     return !(sqrt(dot(n, n)) > 1e-12 * longest2);
 }
 
-/* Two corners in one: such a triangle is a line and its removal leaves no hole. One with three corners in a row does, so it stays
- * for the look at the edges and has no normal. */
+/* Triangles with two equal corners are lines: their removal leaves no hole. The removal of a
+ * triangle with three collinear corners leaves one, so that it is kept for the check of edges and
+ * has no normal. */
 static int64_t remove_degenerate(mps__mesh *m)
 {
     int64_t kept = 0, lost = 0;
@@ -160,7 +162,7 @@ static int64_t remove_degenerate(mps__mesh *m)
     return lost;
 }
 
-/* A triangle by its corners, the lowest first, in the order of the triangle. */
+/* A triangle by its corners, rotated so that the lowest is first. */
 typedef struct triangle {
     int32_t corner[3], element;
 } triangle;
@@ -173,7 +175,7 @@ static int compare_faces(const void *a, const void *b)
     return (p->element > q->element) - (p->element < q->element);
 }
 
-/* Of triangles with the same corners, in the same order, the first one stays. */
+/* Remove duplicate triangles (same corners, same orientation), keeping the first one. */
 static mps_status remove_twice(mps__mesh *m, int64_t *lost)
 {
     triangle *f = mps__alloc(m->context, m->elements, sizeof *f);
@@ -198,10 +200,10 @@ static mps_status remove_twice(mps__mesh *m, int64_t *lost)
     return MPS_OK;
 }
 
-/* An edge of a triangle, from its lower point to its higher one. */
+/* An edge of a triangle, from its lower to its higher point. */
 typedef struct side {
-    int32_t low, high, place; /* place: 3 * element + number of the edge */
-    int32_t direction;        /* 1: the triangle goes from low to high, else -1 */
+    int32_t low, high, place; /* place: 3 * element + index of the edge */
+    int32_t direction;        /* 1: the triangle traverses the edge from low to high, else -1 */
 } side;
 
 static int compare_sides(const void *a, const void *b)
@@ -230,7 +232,8 @@ static void middle_of(const mps__mesh *m, const side *s, double out[3])
         out[d] = 0.5 * (m->x[3 * (int64_t)s->low + d] + m->x[3 * (int64_t)s->high + d]);
 }
 
-/* Edge normals, and what is wrong with the `count` triangles at one edge. Points of open edges are noted in `rim`. */
+/* Edge normals, and faults of the `count` triangles at one edge. Points of open edges are marked in
+ * `rim`. */
 static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_faults *faults,
                          unsigned char *rim)
 {
@@ -291,7 +294,7 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned
 
 /* ---- gaps ---- */
 
-/* Points of `rim` join the first of them that is near. @param number  [points] out: what they become */
+/* Merge points of `rim` with the first near one. @param number  [points] out: new index */
 static mps_status find_near(const mps__mesh *m, const unsigned char *rim, double tolerance,
                             int32_t *number, mps__mesh_faults *faults)
 {
@@ -385,7 +388,7 @@ double mps__mesh_volume(const mps__mesh *m)
     for (int64_t e = 0; e < m->elements; e++) {
         double n[3], r[3];
         face_normal(m, e, n);
-        difference(corner_of(m, e, 0), m->x, r); /* from a point nearby, for the sake of rounding */
+        difference(corner_of(m, e, 0), m->x, r); /* relative to a near point, to reduce rounding */
         volume += dot(r, n) / 6;
     }
     return volume;
@@ -398,7 +401,7 @@ void mps__mesh_turn(mps__mesh *m)
         double *n = m->edge_normal + 9 * e, kept[3];
         c[0] = c[1];
         c[1] = first;
-        /* edges 1-2 and 2-0 change places */
+        /* edges 1-2 and 2-0 are swapped */
         memcpy(kept, n + 3, sizeof kept);
         memcpy(n + 3, n + 6, sizeof kept);
         memcpy(n + 6, kept, sizeof kept);
@@ -411,7 +414,7 @@ void mps__mesh_turn(mps__mesh *m)
 
 /* An element while the tree is built. */
 typedef struct leaf {
-    double key; /* centre along the axis of the present cut */
+    double key; /* centre along the axis of the current split */
     int32_t element;
 } leaf;
 
@@ -443,7 +446,8 @@ static void bound(const mps__mesh *m, mps__mesh_node *node, const leaf *l, int32
     }
 }
 
-/* Cut the elements in two halves across the longest side of their box. Depth is log2 of their number. */
+/* Split the elements into halves along the longest side of their box. The depth is log2 of their
+ * number. */
 static void build(mps__mesh *m, leaf *all, int32_t first, int32_t count)
 {
     const int64_t self = m->nodes++;
@@ -481,14 +485,14 @@ mps_status mps__mesh_finish(mps__mesh *m)
 
 /* ---- the distance ---- */
 
-/* What is nearest so far. */
+/* The nearest element so far. */
 typedef struct hit {
-    double r2, to[3]; /* from the nearest place to x */
+    double r2, to[3]; /* from the nearest point to x */
     int64_t element;
-    int feature; /* 0 the face, 1 2 3 its edges, 4 5 6 its corners */
+    int feature; /* 0: face, 1 2 3: edges, 4 5 6: corners */
 } hit;
 
-/* The nearest place between two corners of an element, as a fraction of the way. */
+/* The nearest point between two corners of an element, as a fraction of their distance. */
 static double along_edge(const mps__mesh *m, int64_t e, int from, int to, const double x[3])
 {
     double a[3], r[3];
@@ -512,7 +516,7 @@ static void try_edge(const mps__mesh *m, int64_t e, int k, const double x[3], hi
     *best = (hit){r2, {r[0], r[1], r[2]}, e, t <= 0 ? 4 + k : t >= 1 ? 4 + next : 1 + k};
 }
 
-/* The foot of the perpendicular, if it lies within the triangle. @return whether it does */
+/* The foot of the perpendicular, if it is within the triangle. @return whether it is */
 static bool try_face(const mps__mesh *m, int64_t e, const double x[3], hit *best)
 {
     double n[3], r[3];
@@ -581,7 +585,7 @@ double mps__mesh_distance(const mps__mesh *m, const double x[3], double foot[3],
     pseudonormal(m, &best, across);
     const double r = sqrt(best.r2), sign = dot(best.to, across) > 0 ? 1 : -1;
     unit(across);
-    /* on the surface itself the way to it has no direction */
+    /* on the surface itself the direction is undefined */
     const bool on = !(r > 1e-9 * m->size);
     for (int d = 0; d < 3; d++) {
         if (foot) foot[d] = x[d] - best.to[d];

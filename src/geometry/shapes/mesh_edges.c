@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The unit normals of two faces add to 2 cos(half of the angle between them); a lone one, of an open surface, is 1 long. */
+/* The unit normals of two faces have a sum of length 2 cos(half of the angle between them); at an
+ * open edge a single one has length 1. */
 static bool is_sharp(const double sum[3], double angle)
 {
     const double most = 2 * mps__cos(0.5 * angle);
@@ -17,7 +18,7 @@ int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t room, double *
     int64_t count = 0;
     for (int64_t k = 0; k < 3 * m->elements; k++) {
         const int32_t a = m->corner[k], b = m->corner[k % 3 == 2 ? k - 2 : k + 1];
-        /* each edge once: the triangle at its other side has it from b to a */
+        /* each edge once: the triangle on its other side has it from b to a */
         if (a > b || !is_sharp(m->edge_normal + 3 * k, angle)) continue;
         if (count < room) {
             memcpy(ends + 6 * count, m->x + 3 * (int64_t)a, 3 * sizeof *ends);

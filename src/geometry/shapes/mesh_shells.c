@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shells of a closed surface: parts that share no point. Whether one is within another, and how often places are enclosed. */
+/* Shells of a closed surface, i.e. parts without common points: whether one is within another, and
+ * how often sample points are enclosed. */
 #include "mesh.h"
 #include "angles.h"
 #include <math.h>
 #include <string.h>
 
 enum { SHELLS = 32, PLACES_LEAST = 64, PLACES_MOST = 256 };
-static const double angles_most = 1e5; /* that are summed up for the places */
+/* largest number of solid angles summed for the sample points */
+static const double angles_most = 1e5;
 
 static const double *corner_at(const mps__mesh *m, int64_t e, int k)
 {
@@ -30,7 +32,7 @@ static double angle_of(const mps__mesh *m, int64_t e, const double x[3])
     return mps__atan2(volume, below) / (2 * MPS__PI);
 }
 
-/* How often one shell, or all of them (-1), encloses a place. */
+/* Winding number of a point for one shell, or for all of them (-1). */
 static double winding(const mps__mesh *m, const int32_t *shell, int32_t which, const double x[3])
 {
     double sum = 0;
@@ -45,7 +47,8 @@ static int32_t root_of(int32_t *parent, int32_t i)
     return i;
 }
 
-/* Union-find over the triangles. @param shell  [points] out: number of the shell of each point @return how many shells */
+/* Union-find over the triangles. @param shell  [points] out: number of the shell of each point
+ * @return how many shells */
 static int64_t number_shells(const mps__mesh *m, int32_t *parent, int32_t *shell)
 {
     int32_t count = 0;
@@ -65,7 +68,7 @@ static int64_t number_shells(const mps__mesh *m, int32_t *parent, int32_t *shell
     return count;
 }
 
-/* Volumes of the first shells, and a point of each. */
+/* Volumes of the first shells, and one point of each. */
 static void measure(const mps__mesh *m, const int32_t *shell, double *volume, int32_t *point)
 {
     for (int64_t e = 0; e < m->elements; e++) {
@@ -101,7 +104,7 @@ static void find_nested(const mps__mesh *m, const int32_t *shell, mps__mesh_shel
         }
 }
 
-/* Places of the box, of an additive recurrence, that are not enclosed 0 or 1 times. */
+/* Sample points of the box, by an additive recurrence, that are not enclosed 0 or 1 times. */
 static void find_overlaps(const mps__mesh *m, double sign, mps__mesh_shells *out)
 {
     static const double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall particles: vertices of the contour - corners first, then edges, then what lies on the lattice - thinned to a distance, then moved
- * apart along the surface. A flat face on the lattice gets exactly the lattice's points. Areas: each patch belongs to the nearest. */
+/* Wall particles: vertices of the contour - corners first, then edges, then vertices on the
+ * lattice - are thinned to a distance, then moved apart along the surface. A flat face on the
+ * lattice gets exactly the lattice points. Each patch of area is assigned to the nearest
+ * particle. */
 #include "sampling.h"
 #include <math.h>
 #include <mps/numbers.h>
@@ -8,13 +10,14 @@
 
 enum { SWEEPS = 40, ROUNDS = 4, ODD = 4 };
 
-/* In spacings: room to particles that are there, and the part of the surface that they take; distances tried for thinning, the first one and the limits; reach and length of
- * the repulsion; half the width of a gap that takes a particle, in 2-D and 3-D. */
+/* In spacings: distance to existing particles, and the part of the surface that they occupy; first
+ * distance tried for thinning, and its limits; range and length of the repulsion; half the width of
+ * a gap that gets a particle, in 2-D and 3-D. */
 static const double room = 0.7, beside = 0.5, widest = 0.9, longest = 1.1, narrowest = 0.6,
                     step = 0.02, range = 1.6, push = 0.35, hole[2] = {0.5, 0.7};
-/* Number of wall particles that is aimed at, in parts of the surface over dp^(dim-1). */
+/* Target number of wall particles, relative to the surface over dp^(dim-1). */
 static const double least = 0.98, most = 1.05;
-/* Of dummies to walls and to each other; depth to which a wall has to be solid. */
+/* Distance of dummies to walls and to each other; depth to which a wall must be solid. */
 static const double wall_room = 0.7, layer_room = 0.75, gap_room = 0.8, thin_depth = 2.99;
 
 static bool is_kept(const mps__samples *s, const double x[3])
@@ -39,7 +42,7 @@ static mps_status add_wall(mps__samples *s, const mps__vertex *v)
     return mps__buckets_add(&s->wall, v->x);
 }
 
-/* Take vertices of one feature whose cells are off the lattice along `odd` axes. */
+/* Accept vertices of one feature whose cells are off the lattice along `odd` axes. */
 static mps_status take_vertices(mps__samples *s, int32_t feature, int32_t odd, double distance)
 {
     const double dp = s->shape->dp;
@@ -52,7 +55,7 @@ static mps_status take_vertices(mps__samples *s, int32_t feature, int32_t odd, d
     return MPS_OK;
 }
 
-/* One place between the vertices, where it is far enough from all particles. */
+/* A point between the vertices, if it is far enough from all particles. */
 static mps_status take_patch(mps__samples *s, int64_t k, double distance)
 {
     const double dp = s->shape->dp;
@@ -64,14 +67,14 @@ static mps_status take_patch(mps__samples *s, int64_t k, double distance)
     return mps__shape_project(s->shape, v.x, dp) ? add_wall(s, &v) : MPS_OK;
 }
 
-/* In 2-D vertices are too far apart to choose from: places between those on the lattice. */
+/* In 2-D the vertices are too far apart: points between those on the lattice are tried as well. */
 static mps_status take_patches(mps__samples *s, double distance)
 {
     for (int64_t k = 0; k < s->contour->patches; k++) MPS__TRY(take_patch(s, k, distance));
     return MPS_OK;
 }
 
-/* Area on which wall particles are to be placed, and how many: beside particles that are there already those take a part of it. */
+/* Area for wall particles, and their number; existing particles nearby occupy a part of it. */
 static void find_surface(mps__samples *s)
 {
     const double dp = s->shape->dp;
@@ -84,7 +87,8 @@ static void find_surface(mps__samples *s)
         if (s->others && mps__buckets_nearest(s->others, p->x, beside * dp, NULL) >= 0)
             taken += length_of(p->area);
     }
-    /* in 2-D the ends of a surface need particles: its faces reach to their feet on what is there */
+    /* in 2-D the ends of a surface need particles: its faces extend to their feet on existing
+     * ones */
     if (s->shape->dim == 2) taken = fmax(0, taken - 2 * beside * dp);
     s->wanted = (s->surface - taken) / mps_pow(dp, s->shape->dim - 1);
 }
@@ -101,8 +105,9 @@ static mps_status thin_to(mps__samples *s, const double *lo, const double *hi, d
     return dim == 2 ? take_patches(s, distance) : MPS_OK;
 }
 
-/* The widest distance that leaves one particle for every dp^(dim-1) of the surface. Vertices are dp/2 apart: where a shorter distance
- * accepts all of them on a face their number jumps, and the distance before it leaves gaps for fill_holes(). */
+/* The largest distance that leaves one particle for every dp^(dim-1) of the surface. Vertices are
+ * dp/2 apart: at some distance the number of particles jumps, because all vertices of a face are
+ * accepted; the distance before it leaves gaps for fill_holes(). */
 static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
 {
     double distance = widest;
@@ -120,7 +125,8 @@ static mps_status thin_out(mps__samples *s, const double *lo, const double *hi)
     return MPS_OK;
 }
 
-/* A step near the golden section of n that visits all of 0 .. n - 1, each far from those before it. */
+/* A step near the golden section of n that visits all of 0 .. n - 1, each far from the previous
+ * ones. */
 static int64_t spread_step(int64_t n)
 {
     for (int64_t k = (int64_t)(0.618 * (double)n); k > 1; k--) {
@@ -135,7 +141,7 @@ static int64_t spread_step(int64_t n)
     return 1;
 }
 
-/* Particles in the widest gaps first, spread over the surface, until their number is right. */
+/* Fill the largest gaps first, spread over the surface, until the number is reached. */
 static mps_status fill_holes(mps__samples *s)
 {
     const int64_t n = s->contour->patches, step_of = spread_step(n);
@@ -149,8 +155,8 @@ static mps_status fill_holes(mps__samples *s)
 
 /* ---- moving apart ---- */
 
-/* Sum of the pushes on one particle: corners stay, edges are pushed by corners and edges, faces by
- * all. */
+/* Sum of the repulsion on one particle: corners are fixed, edges are pushed by corners and edges,
+ * faces by all. */
 typedef struct pushes {
     const mps__samples *s;
     int64_t self;
@@ -185,7 +191,7 @@ static bool move_apart(const mps__samples *s, int64_t i, double x[3])
     return true;
 }
 
-/* One sweep: all particles see the places before it. */
+/* One sweep: all particles use the positions before it. */
 static mps_status sweep(mps__samples *s, const double *lo, const double *hi)
 {
     mps__buckets next;
@@ -220,7 +226,7 @@ static mps_status share_area(mps__samples *s)
     return MPS_OK;
 }
 
-/* Walk into the solid: does it end before 3 dp? */
+/* Whether the solid ends within 3 dp behind a wall particle. */
 static void look_behind(mps__samples *s, int64_t i)
 {
     const double dp = s->shape->dp, *x = s->wall.x + 3 * i;
@@ -252,7 +258,7 @@ mps_status mps__samples_walls(mps__samples *s, const double *lo, const double *h
 
 /* ---- dummies ---- */
 
-/* Is there room for a dummy? */
+/* Add a dummy if its distance to others is large enough. */
 static mps_status offer_dummy(mps__samples *s, const double x[3], double spacing)
 {
     const double dp = s->shape->dp;
@@ -263,7 +269,7 @@ static mps_status offer_dummy(mps__samples *s, const double x[3], double spacing
     return mps__buckets_add(&s->dummy, x);
 }
 
-/* Straight behind the wall particles of faces, where the depth is what it should be. */
+/* Straight behind the wall particles of faces, where the depth is correct. */
 static mps_status place_layer(mps__samples *s, int32_t layer)
 {
     const double dp = s->shape->dp;
@@ -278,7 +284,8 @@ static mps_status place_layer(mps__samples *s, int32_t layer)
     return MPS_OK;
 }
 
-/* Lattice points at the right depth that belong to what was placed, where there is room. */
+/* Lattice points at the correct depth that belong to the placed particles, if their distance to
+ * others is large enough. */
 static mps_status fill_gaps(mps__samples *s, int32_t layers, const mps__distances *lattice)
 {
     const double dp = s->shape->dp, reach = (layers + 1) * dp;

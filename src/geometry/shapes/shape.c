@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Signed distances of solids: value, slope, and the way onto the surface, its edges and corners. */
+/* Signed distances of solids: value, slope, and projection onto the surface, its edges and
+ * corners. */
 #include "contour.h"
 #include <math.h>
 #include <mps/operators.h>
 #include <string.h>
 
-/* Half the span of central differences [dp]; how far about a place edges are looked for [dp]; where the slope is asked for [dp]. */
+/* Half the step of central differences [dp]; distance within which edges are searched [dp];
+ * distance from the surface up to which the slope is used [dp]. */
 static const double span = 0.02, look = 0.3, band = 4.0;
 static const double most_points = 1e8;
 
@@ -13,7 +15,8 @@ double mps__shape_at(const mps__shape *s, const double x[3])
 {
     if (s->distance) return s->sign * s->distance(s->user, x);
     const double r = s->mesh ? mps__mesh_distance(s->mesh, x, NULL, NULL) : s->dp;
-    /* a mesh of what is known by its inside may have ends: away from it the inside says more than the mesh */
+    /* a mesh made from `inside` may have open ends: away from it `inside` is more reliable than the
+     * mesh */
     if (!s->inside || (s->mesh && fabs(r) < 0.5 * s->dp)) return r;
     return (s->inside(s->user, x) != 0) == (s->sign < 0) ? fabs(r) : -fabs(r);
 }
@@ -38,7 +41,7 @@ double mps__shape_true(const mps__shape *s, const double x[3], double n[3])
     }
     const double size = sqrt(size2), value = mps__shape_at(s, x);
     for (int d = 0; n && d < 3; d++) n[d] = size > 0 ? g[d] / size : 0;
-    return value / fmax(size, 1e-3); /* at ridges the differences give too little */
+    return value / fmax(size, 1e-3); /* at ridges the differences are too small */
 }
 
 bool mps__shape_project(const mps__shape *s, double x[3], double reach)
@@ -57,7 +60,7 @@ bool mps__shape_project(const mps__shape *s, double x[3], double reach)
     return moved2 <= reach * reach;
 }
 
-/* One step towards the place all tangent planes about x share. */
+/* One step towards the common point of all tangent planes around x. */
 static bool feature_step(const mps__shape *s, double x[3])
 {
     double m[9] = {0}, b[9], rhs[3] = {0, 0, 0};
@@ -88,7 +91,8 @@ bool mps__shape_project_feature(const mps__shape *s, double x[3])
 
 /* ---- distances on a lattice ---- */
 
-/* On a ridge, e.g. on the diagonal of a corner, central differences see too small a slope: the steeper of two places counts. */
+/* On a ridge, e.g. on the diagonal of a corner, central differences give too small a slope: the
+ * steeper of two positions is used. */
 static double off_ridges(const mps__shape *s, const double x[3], double raw)
 {
     const double aside[3] = {x[0] + 0.13 * s->dp, x[1] + 0.05 * s->dp,
@@ -147,7 +151,7 @@ void mps__distances_place(const mps__distances *f, int64_t point, double x[3])
     }
 }
 
-/* Points about a place: the lowest one, and the place between them, 0..1. */
+/* Lattice points around a position: the lowest one, and the relative position, 0..1. */
 typedef struct between {
     int64_t k[3];
     double t[3];
@@ -165,7 +169,7 @@ static bool find_between(const mps__distances *f, const double x[3], between *b)
     return true;
 }
 
-/* Place of a corner of the cell at k, by bits. */
+/* Index of a corner of the cell at k, by bits. */
 static int64_t corner_place(const mps__distances *f, const int64_t k[3], int corner)
 {
     int64_t place = 0, stride = 1;
@@ -190,7 +194,8 @@ bool mps__distances_at(const mps__distances *f, const double x[3], double *value
     return true;
 }
 
-/* Sum of the second differences at the corners of a cell: < 0 where faces meet about the liquid, > 0 where they meet about the solid. */
+/* Sum of the second differences at the corners of a cell: < 0 where faces meet around the
+ * liquid, > 0 where they meet around the solid. */
 static double bend(const mps__distances *f, const int64_t k[3])
 {
     double sum = 0;
@@ -207,13 +212,14 @@ static double bend(const mps__distances *f, const int64_t k[3])
     return sum;
 }
 
-/* Linear in each of the simplices about the diagonal of the cell that begins at corner `from`. */
+/* Linear in each of the simplices around the diagonal of the cell that begins at corner `from`. */
 static double along_diagonal(const mps__distances *f, const between *b, int from)
 {
     double t[3], value = f->value[corner_place(f, b->k, from)];
     int corner = from;
     for (int d = 0; d < f->dim; d++) t[d] = from >> d & 1 ? 1 - b->t[d] : b->t[d];
-    for (int step = 0; step < f->dim; step++) { /* the axis with the largest way left is next */
+    /* next the axis with the largest remaining distance */
+    for (int step = 0; step < f->dim; step++) {
         int axis = 0;
         double most = -1;
         for (int d = 0; d < f->dim; d++)

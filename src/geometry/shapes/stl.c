@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* STL: binary is 80 bytes of anything, the number of triangles, 50 bytes for each; ASCII is words. A file without control characters is
- * ASCII, whatever it begins with; a file as long as its number of triangles, or longer, is binary. */
+/* STL. Binary files have an arbitrary header of 80 bytes, the number of triangles, and 50 bytes per
+ * triangle; ASCII files consist of words. A file without control characters is ASCII, whatever its
+ * beginning; a file at least as long as its number of triangles requires is binary. */
 #include "stl.h"
 #include <errno.h>
 #include <math.h>
@@ -15,7 +16,7 @@ typedef struct file {
     const char *path;
     unsigned char *bytes;
     int64_t size, capacity;
-    int64_t at, line; /* of the words of an ASCII file */
+    int64_t at, line; /* position and line of the next word of an ASCII file */
 } file;
 
 static mps_status read_all(mps__context *c, FILE *in, file *f)
@@ -41,7 +42,7 @@ static mps_status load(mps__context *c, file *f)
     return status;
 }
 
-/* Room for one more triangle; its corners are the next nine numbers. */
+/* Append a triangle; its corners are the next nine numbers. */
 static mps_status next_triangle(mps__mesh *m, double **x)
 {
     MPS__TRY(mps__mesh_reserve(m, 3, 1));
@@ -89,14 +90,14 @@ static bool is_blank(unsigned char c)
     return c == ' ' || (c >= '\t' && c <= '\r') || c == END_OF_FILE;
 }
 
-/* Lines end with LF, CR LF or CR. */
+/* Whether a line ends here: LF, CR LF or CR. */
 static bool ends_line(const file *f, int64_t at)
 {
     return f->bytes[at] == NEWLINE ||
            (f->bytes[at] == RETURN && (at + 1 == f->size || f->bytes[at + 1] != NEWLINE));
 }
 
-/* The next word, at most WORD-1 characters of it; false at the end. */
+/* The next word, truncated to WORD-1 characters; false at the end. */
 static bool next_word(file *f, char word[WORD])
 {
     int length = 0;
@@ -125,7 +126,7 @@ static double digits(const char **p, int *count, double value)
     return value;
 }
 
-/* A decimal number with a point, in any locale. False if the word is none. */
+/* A decimal number with a point, in any locale. False if the word is no number. */
 static bool number(const char *p, double *value)
 {
     const double sign = *p == '-' ? -1 : 1;
@@ -177,7 +178,7 @@ static mps_status parse_numbers(mps__mesh *m, file *f, double *x, bool used)
     return MPS_OK;
 }
 
-/* What follows "facet". */
+/* Text after "facet". */
 static mps_status parse_facet(mps__mesh *m, file *f)
 {
     double normal[3], *x;
@@ -194,7 +195,8 @@ static mps_status parse_facet(mps__mesh *m, file *f)
     return expect(m, f, "endfacet");
 }
 
-/* "solid" name facets "endsolid" name, perhaps several times; the last "endsolid" may be missing. */
+/* "solid" name facets "endsolid" name, perhaps several times; the last "endsolid" may be
+ * missing. */
 static mps_status parse_ascii(mps__mesh *m, file *f, mps__stl_notes *notes)
 {
     char word[WORD];
@@ -215,13 +217,14 @@ static mps_status parse_ascii(mps__mesh *m, file *f, mps__stl_notes *notes)
 
 /* ---- both ---- */
 
-/* Bytes of a mark that says that a text is UTF-8. */
+/* Length of a UTF-8 byte order mark. */
 static int64_t mark_of(const file *f)
 {
     return f->size >= 3 && memcmp(f->bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
 }
 
-/* The count of triangles of a binary file has a byte 0, as files have fewer than 16 million. */
+/* The triangle count of a binary file has a zero byte, since files have fewer than 16 million
+ * triangles. */
 static bool is_text(const file *f)
 {
     for (int64_t k = 0; k < f->size; k++)

@@ -5,13 +5,14 @@
 
 #include "mesh.h"
 
-/* What is unusual in a file that was read. */
+/* Irregularities of a file. */
 typedef struct mps__stl_notes {
-    int64_t tail; /* bytes behind the last triangle of a binary file */
-    bool no_end;  /* an ASCII file has no "endsolid" at its end */
+    int64_t tail; /* bytes after the last triangle of a binary file */
+    bool no_end;  /* an ASCII file without final "endsolid" */
 } mps__stl_notes;
 
-/* Read a binary or ASCII file into an empty mesh, three points a triangle; normals of the file are not used. */
+/* Read a binary or ASCII file into an empty mesh, three points per triangle; normals of the file
+ * are not used. */
 mps_status mps__stl_read(mps__mesh *m, const char *path, mps__stl_notes *notes);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The public functions of mps/geometry.h: argument checks, then geometry.c. */
+/* Public functions of mps/geometry.h: argument checks, then geometry.c. */
 #include "geometry.h"
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +15,8 @@ static mps_status has_tank(const mps_sim *sim)
     return MPS_OK;
 }
 
-/* Whole cells of every side, the same for tanks of the same size. The lattice with its dummies must stay countable. */
+/* Whole cells along every side, the same for tanks of the same size. The number of lattice points
+ * including dummies must not overflow. */
 static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3])
 {
     const double dp = sim->world.setup.dp_given;
@@ -40,8 +41,8 @@ static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3
     return MPS_OK;
 }
 
-/* Cells that fill the tank. Their volume is that of a particle: before the first particle the
- * spacing follows them, later a tank whose cells have another volume is rounded. */
+/* Cells that fill the tank. A cell has the volume of a particle: before the first particle the
+ * spacing is adapted to the cells, later a tank whose cells have another volume is rounded. */
 static void fit_lattice(const mps_sim *sim, const mps_tank *tank, mps__tank_lattice *l)
 {
     static const double same_volume = 1e-3;
@@ -114,13 +115,13 @@ static mps_status box_points(mps_sim *sim, const double *lo, const double *hi,
     return MPS_OK;
 }
 
-/* What a layer of this share lacks. */
+/* Missing fraction of a layer. */
 static double missing(double share)
 {
     return share > 0 ? 1 - share : 0;
 }
 
-/* Corners of the points of a box, and the log of what differs from what was asked for. */
+/* Corners of the points of a box, and a log of the differences from the requested box. */
 static void report_box(mps_sim *sim, const char *what, const double *lo, const double *hi,
                        const mps__lattice_box *box, double *built)
 {
@@ -160,7 +161,7 @@ mps_status mps_tank_add(mps_sim *sim, const mps_tank *tank, double *built)
 {
     MPS__BUILDS(sim);
     mps_tank t = tank_defaults;
-    char name[MPS__PART_NAME - 3]; /* room for ".x0" */
+    char name[MPS__PART_NAME - 3]; /* capacity for ".x0" */
     const double dp = sim->world.setup.dp;
     mps__tank_lattice lattice = {.h = {dp, dp, dp}};
     MPS__TRY(mps__solids_allowed(sim));
@@ -207,7 +208,7 @@ mps_status mps_baffle_add(mps_sim *sim, const char *name, const double *lo, cons
     return MPS_OK;
 }
 
-/* Of one edge of a plate. */
+/* Checks one edge of a plate. */
 static mps_status plate_edge(mps_sim *sim, mps__plate_shape *s, int e, const double *edge)
 {
     const int dim = sim->world.setup.dim;
@@ -257,7 +258,7 @@ static int32_t plate_axis(const mps_sim *sim, const mps__plate_shape *s)
     return axis;
 }
 
-/* All four corners lie in the tank. */
+/* All four corners are in the tank. */
 static mps_status plate_inside(mps_sim *sim, const mps__plate_shape *s)
 {
     for (int corner = 0; corner < 2 * (sim->world.setup.dim - 1); corner++)
@@ -327,7 +328,7 @@ mps_status mps_fill_box_add(mps_sim *sim, int32_t phase, const double *lo, const
     return MPS_OK;
 }
 
-/* Layers of the box that lie partly in lo..hi, where the lattice has them. */
+/* Add the layers of the box that are partly in lo..hi, where the lattice has them. */
 static void add_layers(const mps_sim *sim, const double *lo, const double *hi,
                        mps__lattice_box *box)
 {

@@ -7,13 +7,13 @@
 #include <math.h>
 #include <string.h>
 
-/* Widest gap of a surface that is closed [dp]. */
+/* Widest gap of a surface that is closed automatically [dp]. */
 static const double gap_share = 0.01;
 
 static const mps_solid solid_defaults = {.name = "solid", .dummy_layers = 2};
 static const mps_stl stl_defaults = {.name = "solid", .dummy_layers = 2, .scale = 1};
 
-/* Lattice points of the box can be told apart. */
+/* Lattice points of the box must be distinguishable. */
 static mps_status check_corner(mps_sim *sim, const char *what, const double *lo)
 {
     for (int d = 0; d < sim->world.setup.dim; d++)
@@ -109,7 +109,7 @@ static mps_status check_stl(mps_sim *sim, const char *path, const mps_stl *s)
     return MPS_OK;
 }
 
-/* A quarter turn gives exact zeros. */
+/* Quarter turns have exact zeros. */
 static void cosine_sine(double angle, double *cosine, double *sine)
 {
     const double quarters = angle / (0.5 * MPS__PI), whole = round(quarters);
@@ -122,7 +122,7 @@ static void cosine_sine(double angle, double *cosine, double *sine)
     *sine = table[(k + 3) % 4];
 }
 
-/* Turn a point about the axes x, y and z, one after the other. */
+/* Rotate a point about the axes x, y and z, in this order. */
 static void turn_point(const double rotation[3], double *x)
 {
     for (int axis = 0; axis < 3; axis++) {
@@ -136,7 +136,7 @@ static void turn_point(const double rotation[3], double *x)
     }
 }
 
-/* Scale, turn and shift; lo and hi become the bounding box. */
+/* Scale, rotate and shift; lo and hi become the bounding box. */
 static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
 {
     for (int64_t k = 0; k < m->points; k++) turn_point(s->rotation, m->x + 3 * k);
@@ -177,7 +177,7 @@ static void tell_faults(mps__context *c, const char *path, const mps__mesh_fault
                  path, f->gap, (long long)f->joined, f->joined == 1 ? " is" : "s are", tolerance);
 }
 
-/* What may be meant otherwise: thick walls, several tanks in one file, parts that overlap. */
+/* Log possible mistakes: thick walls, several tanks in one file, overlapping parts. */
 static mps_status tell_shells(const mps__mesh *m, const char *path, bool container)
 {
     mps__context *c = m->context;
@@ -206,7 +206,7 @@ static mps_status tell_shells(const mps__mesh *m, const char *path, bool contain
     return MPS_OK;
 }
 
-/* A closed surface whose normals look to the liquid, ready for distances. */
+/* A closed surface whose normals point to the liquid, ready for distances. */
 static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, bool container)
 {
     mps__context *c = &sim->context;

@@ -5,11 +5,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Length of the groups in which points of a layer that is not whole are taken: holes one point wide would not close, a bump some points wide
- * levels out. */
+/* Length of the groups in which points of a partial layer are chosen: holes one point wide would
+ * not close, a bump some points wide levels out. */
 enum { GROUP = 3 };
 
-/* Where a point lies in a layer: its place in the lines of the layer, and the line. */
+/* Position of a point in a layer: index in its line, and index of the line. */
 static void place_in_layer(const mps__lattice_plan *p, const int64_t k[3], int axis, int64_t *along,
                            int64_t *line)
 {
@@ -18,7 +18,8 @@ static void place_in_layer(const mps__lattice_plan *p, const int64_t k[3], int a
     *line = k[b] - p->box.first[b];
 }
 
-/* Groups are evenly spread: each line of groups carries the remainder over, lines side by side begin elsewhere. */
+/* Groups are evenly spread: each line of groups carries the remainder over, adjacent lines have an
+ * offset. */
 static bool by_pattern(const mps__lattice_plan *p, const int64_t k[3], int axis, double share)
 {
     static const double golden = 0.6180339887498949;
@@ -29,8 +30,9 @@ static bool by_pattern(const mps__lattice_plan *p, const int64_t k[3], int axis,
     return floor(at) > floor(at - share);
 }
 
-/* Share of the points of its layers that a point stands for: 1 inside of the box. Beyond the sides and the bottom of the box liquid does not
- * pass solids; above the last whole row it covers them. */
+/* Fraction of the points of its layers that a point represents: 1 inside the box. Beyond the sides
+ * and the bottom of the box liquid does not pass solids; above the last whole layer it covers
+ * them. */
 static double wanted_share(const mps__lattice_plan *p, const int64_t k[3])
 {
     double share = 1;
@@ -58,7 +60,7 @@ static bool in_layers(const mps__lattice_plan *p, const int64_t k[3])
     return in;
 }
 
-/* Whether a point begins a group of a layer that is not whole. */
+/* Whether a point begins a group of a partial layer. */
 static bool begins_group(const mps__lattice_plan *p, const int64_t k[3])
 {
     for (int d = 0; d < p->dim; d++)
@@ -72,13 +74,14 @@ static bool begins_group(const mps__lattice_plan *p, const int64_t k[3])
     return false;
 }
 
-/* Points of layers that are not whole: how many the volume needs, how many were chosen, and how many of each state may change. */
+/* Points of partial layers: number that the volume requires, number chosen, and number of each
+ * state that may change. */
 typedef struct tally {
     double wanted;
     int64_t chosen, of[2];
 } tally;
 
-/* Whether a point of a layer that is not whole may change: first points of groups, or all of them. */
+/* Whether a point of a partial layer may change: first points of groups, or all of them. */
 static bool may_change(const mps__lattice_plan *p, const int64_t k[3], bool first)
 {
     const double share = wanted_share(p, k);
@@ -99,7 +102,8 @@ static tally count_layers(const mps__lattice_plan *p, bool first)
     return t;
 }
 
-/* Groups miss the number of points that the volume needs by some: points, evenly spread, are added or left out. */
+/* Groups do not give exactly the number of points that the volume requires: points, evenly spread,
+ * are added or removed. */
 static void meet_volume(mps__lattice_plan *p, bool first)
 {
     const tally t = count_layers(p, first);
@@ -139,8 +143,9 @@ static void fluid_describe(const mps__lattice_plan *p, const int64_t k[3], mps__
 
 /* ---- beside solids of any shape ---- */
 
-/* Cells of points beside solids are not whole, yet points are free or covered. A particle stands for what is half a spacing or more from
- * solids, so this volume tells how many there are. @param given  out: as many are free */
+/* Cells beside solids are cut, but points are either free or covered. A particle represents the
+ * volume half a spacing or more from solids; this volume gives the number of points.
+ * @param given  out: number of free ones */
 static double points_wanted(const mps__lattice_plan *p, double *given)
 {
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
@@ -165,7 +170,7 @@ static int64_t points_on_top(const mps__lattice_plan *p, int64_t layer)
     return n;
 }
 
-/* The uppermost layers take up what cells beside solids have too little or too much. */
+/* The uppermost layers compensate the surplus or deficit of cells beside solids. */
 static mps_status level_out(mps__lattice_plan *p)
 {
     mps__lattice_box *box = &p->box;
@@ -185,7 +190,7 @@ static mps_status level_out(mps__lattice_plan *p)
             box->share[1][1] = here < all ? here / all : 0;
         } else if (layer > box->first[1]) {
             box->last[1]--;
-        } else { /* less than half of a particle in all: a layer remains, and may stay empty */
+        } else { /* less than half of a particle in total: a layer remains, and may be empty */
             box->share[1][1] = 1e-6;
         }
         lack = here > 0.5 ? 0 : here;
@@ -209,7 +214,7 @@ static mps_status fluid_run(mps__lattice_plan *p, bool keeps)
     return mps__lattice_plan_build(p);
 }
 
-/* Share of the free points of a layer that were chosen; other layers that are not whole do not count. */
+/* Fraction of the free points of a layer that were chosen; other partial layers do not count. */
 static double built_share(const mps__lattice_plan *p, int axis, int end)
 {
     const double part = p->box.share[axis][end];
@@ -225,7 +230,7 @@ static double built_share(const mps__lattice_plan *p, int axis, int end)
     return chosen > 0 ? (double)chosen / (double)(chosen + left) : 0;
 }
 
-/* What the layers at the ends of the box became; one without a point is none. */
+/* Record the layers at the ends of the box; one without points is removed. */
 static void note_layers(const mps__lattice_plan *p, mps__lattice_box *box)
 {
     for (int d = 0; d < p->dim; d++)
@@ -240,7 +245,7 @@ static void note_layers(const mps__lattice_plan *p, mps__lattice_box *box)
         }
 }
 
-/* Inside of layers that are not whole the liquid has no gaps, so only their points count. */
+/* Inside partial layers the liquid has no gaps, so that only their points count. */
 static void report_volume(const mps__lattice_plan *p, const double *lo, const double *hi)
 {
     double built, asked, cell = 1;

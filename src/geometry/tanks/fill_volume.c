@@ -1,15 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Volume of a fill. A particle stands for its cell; beside a wall for the half cell of the wall too, and at a free surface for the half of
- * its cell below it: n rows are n spacings deep. */
+/* Volume of a fill. A particle represents its cell; beside a wall also the half cell of the wall,
+ * and at a free surface the half of its cell below it: n layers are n spacings deep. */
 #include "lattice_plan.h"
 #include "solid.h"
 #include <math.h>
 
-/* Places in a cell at which `inside` is asked, if it differs at its corners. */
+/* Sample points in a cell at which `inside` is evaluated, if it differs between the corners. */
 enum { PLACES = 256 };
 
-/* A cell: how far it reaches from its point to both sides [cells], its volume, and at how many of the two ends of an axis the liquid may
- * end, at most. */
+/* A cell: its extent from its point to both sides [cells], its volume, and the largest number of
+ * ends of an axis at which the liquid may end. */
 typedef struct cell {
     double reach[3][2], volume;
     int free_ends;
@@ -31,7 +31,7 @@ static cell cell_of(const mps__lattice_plan *p, const int64_t k[3])
     return c;
 }
 
-/* The part of a cell in the box lo..hi [m^dim]. */
+/* Part of a cell within the box lo..hi [m^dim]. */
 static double in_box(const mps__lattice_plan *p, const double X[3], const cell *c, const double *lo,
                      const double *hi)
 {
@@ -53,7 +53,7 @@ static int is_inside(const mps__lattice_plan *p, const double X[3], const cell *
     return p->inside(p->user, x) != 0;
 }
 
-/* Whether the liquid ends near a point: another free point beside it is not what it is. */
+/* Whether the liquid ends near a point: an adjacent free point has another state. */
 static bool at_the_end(const mps__lattice_plan *p, const int64_t k[3], int state)
 {
     int64_t o[3];
@@ -71,7 +71,8 @@ static bool at_the_end(const mps__lattice_plan *p, const int64_t k[3], int state
     return false;
 }
 
-/* Place n in a cell, 0..1 along each axis. The places are an additive recurrence: 256 of them resolve a plane at any angle to some 1/128. */
+/* Sample point n of a cell, 0..1 along each axis, by an additive recurrence: 256 points resolve a
+ * plane at any angle to some 1/128. */
 static void place_in_cell(int dim, int64_t n, double q[3])
 {
     static const double step[2][3] = {{0.7548776662466927, 0.5698402909980532, 0},
@@ -82,7 +83,7 @@ static void place_in_cell(int dim, int64_t n, double q[3])
     }
 }
 
-/* Share of a cell that is inside. */
+/* Fraction of a cell that is inside. */
 static double share_inside(const mps__lattice_plan *p, const double X[3], const cell *c)
 {
     const int corners = 1 << p->dim;
@@ -123,16 +124,18 @@ void mps__lattice_plan_volumes(const mps__lattice_plan *p, const double *lo, con
 
 /* ---- beside solids of any shape ---- */
 
-/* A point is farther from solids than any place of its cell, walls included [dp]. */
+/* A point is farther from solids than any position in its cell, walls included [dp]. */
 static const double far_off = 2.0;
 
-/* Cells have places of their own: with the same ones a wall along cells would have the error of one of them. */
+/* Sample points differ between cells: with the same ones a wall along cells would have the error of
+ * a single cell. */
 static int64_t first_place(const int64_t k[3])
 {
     return PLACES * (k[0] + 31 * k[1] + 977 * k[2]);
 }
 
-/* How far a cell reaches to its neighbour [cells]. A lattice that solids have made may end up to a spacing before them. */
+/* Extent of a cell towards its neighbour [cells]. A lattice made from solids may end up to a
+ * spacing before them. */
 static double half_way(const mps__lattice_plan *p, const int64_t k[3], int axis, int end)
 {
     const bool last = k[axis] == (end ? p->sim->lattice_cells[axis] : 0);
@@ -173,7 +176,8 @@ bool mps__lattice_plan_open(const mps__lattice_plan *p, const int64_t k[3], int 
     return !wall && mps__solid_covers(p->sim, X);
 }
 
-/* The cell of a point ends at walls of the lattice, whose half cells it has, and half way to all other points. */
+/* The cell of a point ends at walls of the lattice, including their half cells, and half-way to all
+ * other points. */
 static cell cell_to_walls(const mps__lattice_plan *p, const int64_t k[3])
 {
     cell c = {.volume = 1};
@@ -192,7 +196,7 @@ static cell cell_to_walls(const mps__lattice_plan *p, const int64_t k[3])
     return c;
 }
 
-/* The part of a cell in the box lo..hi and outside of solids. */
+/* Part of a cell in the box lo..hi and outside of solids. */
 static double out_of_solids(const mps__lattice_plan *p, const int64_t k[3], const cell *c,
                             const double *lo, const double *hi)
 {

@@ -46,7 +46,8 @@ mps_status mps__in_the_way(mps_sim *sim, int64_t i, const double *X, const char 
 
 /* ---- solids ---- */
 
-/* Whether a place lies nearer than half a spacing, along every axis, to the points of the box, and for a tank not in its inside. */
+/* Whether a position is nearer than half a spacing, along every axis, to the points of the box, and
+ * for a tank not inside it. */
 static bool in_solid(const mps__lattice_plan *p, const double *X)
 {
     const double half = 0.5 - 1e-6;
@@ -72,8 +73,8 @@ static mps_status check_fluid(const mps__lattice_plan *p, const char *what, cons
     return MPS_OK;
 }
 
-/* Trapezoid rule over the face across axis `a`: a cell for every other axis, half of it at the face's ends. A box
- * one point thick stands for a cell. */
+/* Trapezoidal rule over the face across axis `a`: a cell for every other axis, half a cell at the
+ * ends of the face. A box one point thick counts as a cell. */
 static double face_weight(const mps__lattice_plan *p, const int64_t k[3], int a)
 {
     double weight = 1;
@@ -85,7 +86,7 @@ static double face_weight(const mps__lattice_plan *p, const int64_t k[3], int a)
     return weight;
 }
 
-/* Part of the first face, in the order y0 y1 x0 x1 z0 z1, on or behind which a point lies. */
+/* Part of the first face, in the order y0 y1 x0 x1 z0 z1, on or behind which a point is. */
 static int32_t tank_part(const mps__lattice_plan *p, const int64_t k[3])
 {
     static const int order[3] = {1, 0, 2};
@@ -135,7 +136,7 @@ static void baffle_describe(const mps__lattice_plan *p, const int64_t k[3], mps_
     }
 }
 
-/* Part numbers of the tank's faces; on failure the caller forgets the new names. */
+/* Part numbers of the tank's faces; on failure the caller removes the new names. */
 static mps_status face_parts(mps__lattice_plan *p, const char *name)
 {
     static const char *const face[6] = {"x0", "x1", "y0", "y1", "z0", "z1"};
@@ -229,7 +230,7 @@ bool mps__lattice_clip(const mps_sim *sim, const double *lo, const double *hi,
 {
     memset(box, 0, sizeof *box);
     for (int d = 0; d < sim->world.setup.dim; d++) {
-        /* a point counts as inside when it is outside by rounding only */
+        /* a point outside by rounding only counts as inside */
         double first = ceil((lo[d] - sim->lattice_lo[d]) / sim->lattice_h[d] - 1e-6),
                last = floor((hi[d] - sim->lattice_lo[d]) / sim->lattice_h[d] + 1e-6);
         double end = (double)sim->lattice_cells[d];

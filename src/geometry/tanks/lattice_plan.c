@@ -30,7 +30,8 @@ void mps__lattice_point(const mps__lattice_plan *p, const int64_t k[3], double X
     for (int d = 0; d < p->dim; d++) X[d] = p->box.lo[d] + (double)k[d] * p->box.h[d];
 }
 
-/* Place in `state` of the lattice point that a particle at X occupies, i.e. nearer than half a cell; -1: none. */
+/* Index in `state` of the lattice point that a particle at X occupies, i.e. nearer than half a
+ * cell; -1: none. */
 static int64_t occupied(const mps__lattice_plan *p, const double *X)
 {
     int64_t place = 0, stride = 1;
@@ -84,7 +85,7 @@ static void mark_plates(mps__lattice_plan *p)
     } while (mps__lattice_plan_next(p, k));
 }
 
-/* Points in a solid or nearer than half a cell to its surface. */
+/* Mark points in a solid or nearer than half a cell to its surface. */
 static void mark_solids(mps__lattice_plan *p)
 {
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
@@ -103,7 +104,8 @@ static void mark_chosen(mps__lattice_plan *p)
     p->taken = p->chosen = 0;
     do {
         if (p->state[place] >= POINT_FLUID) {
-            /* only points the plan wants count as conflicts, and a user's `inside` is asked for free points alone */
+            /* only points of the plan count as conflicts, and a user's `inside` is evaluated for
+             * free points only */
             if (!p->inside) p->taken += p->choose(p, k);
         } else if (p->choose(p, k)) {
             p->state[place] = POINT_CHOSEN;
@@ -135,7 +137,7 @@ static void place_particle(const mps__lattice_plan *p, const int64_t k[3], int64
     p->describe(p, k, &here);
     mps__lattice_point(p, k, X);
     mps__packing_place(&p->packing, k, X);
-    /* solids stand still before the first step, so that they jump to their velocity in it */
+    /* solids are at rest before the first step, so that they jump to their velocity in it */
     mps__motion_point(&w->motion, &w->motion.now, X, &s->x[i * p->dim], NULL, NULL);
     if (here.kind != MPS_FLUID) {
         memcpy(&s->ref[i * p->dim], X, (size_t)p->dim * sizeof(double));
@@ -147,7 +149,8 @@ static void place_particle(const mps__lattice_plan *p, const int64_t k[3], int64
     s->rho[i] = w->setup.phase_density[here.phase];
 }
 
-/* Decide for every lattice point of the box; the store is not touched. mps__lattice_plan_free() afterwards in any case. */
+/* Decide for every lattice point of the box; the particles are not changed. Call
+ * mps__lattice_plan_free() afterwards in any case. */
 mps_status mps__lattice_plan_choose(mps__lattice_plan *p)
 {
     p->state = mps__alloc(&p->sim->context, plan_points(p), 1);

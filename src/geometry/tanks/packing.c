@@ -1,17 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where a lattice meets a surface at any angle its first points are 0.5 to 1.5 dp off it: too near, or a gap that tears. All free points
- * near solids - filled or not, or those at a free surface would be pushed up - repel each other and are repelled by solids. */
+/* Where a lattice meets a surface at any angle, its first points are 0.5 to 1.5 dp from it: too
+ * near, or leaving a gap that tears. All free points near solids repel each other and are repelled
+ * by solids, filled or not: otherwise points at a free surface would be pushed up. */
 #include "packing.h"
 #include "buckets.h"
 #include <math.h>
 #include <string.h>
 
 enum { SWEEPS = 30 };
-/* In spacings: points that move and that take part; reach and length of a push; longest way in all. */
+/* In spacings: distance within which points move, and within which they repel; range and length of
+ * the repulsion; largest displacement. */
 static const double moving = 2.6, taking_part = 4.3, range = 1.6, push = 0.12, longest = 0.45,
                     occupied = 0.5;
 
-/* What is worked on. */
 typedef struct work {
     mps_sim *sim;
     mps__packing *out;
@@ -21,7 +22,7 @@ typedef struct work {
     int64_t home_capacity, free_capacity;
 } work;
 
-/* Distance to the nearest solid whose box holds a place. */
+/* Distance to the nearest solid whose box contains a position. */
 static double clearance(const mps_sim *sim, const double X[3])
 {
     double least = INFINITY, r;
@@ -91,7 +92,7 @@ static void add_push(void *user, int64_t point, const double d[3], double r2)
     for (int a = 0; a < 3 && r > 0; a++) p->sum[a] -= q * q * d[a] / r;
 }
 
-/* One sweep: all points see the places before it. */
+/* One sweep: all points use the positions before it. */
 static mps_status sweep(work *w)
 {
     mps__packing *p = w->out;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lattice points beside solids, moved to where fluid of an even density lies between wall and lattice. */
+/* Lattice points beside solids, moved such that fluid between wall and lattice has uniform
+ * density. */
 #ifndef MPS_CORE_PACKING_H
 #define MPS_CORE_PACKING_H
 
@@ -8,15 +9,16 @@
 typedef struct mps__packing {
     mps__context *context;
     int64_t n[3];    /* points of the lattice */
-    int32_t *number; /* [n0*n1*n2] 1 + place of a moved point, 0: it stays */
+    int32_t *number; /* [n0*n1*n2] 1 + index of a moved point, 0: not moved */
     double *x;       /* [3*count] */
     int64_t count, capacity;
 } mps__packing;
 
-/* Depends on the solids and the lattice alone, so that fills one after the other fit together. Does nothing without solids. */
+/* Depends only on the solids and the lattice, so that successive fills match. Does nothing without
+ * solids. */
 mps_status mps__packing_make(mps__packing *p, mps_sim *sim);
 void mps__packing_free(mps__packing *p);
-/* Put the place of lattice point k into X if it is moved. */
+/* Write the position of lattice point k to X if it is moved. */
 void mps__packing_place(const mps__packing *p, const int64_t k[3], double *X);
 
 #endif

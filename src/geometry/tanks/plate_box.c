@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which boxes are thin plates. */
+/* Detects boxes that are thin plates. */
 #include "geometry.h"
 #include <math.h>
 
-/* A point nearer to a wall than this [dp] is that wall. */
+/* A point nearer to a wall than this [dp] coincides with it. */
 static const double same = 0.3;
 
-/* Share of the points of a box's face, or of those `beyond` it, that are walls. */
+/* Fraction of the points of a box's face, or of those `beyond` it, that are walls. */
 static double covered(mps_sim *sim, const mps__lattice_box *box, int axis, int64_t at)
 {
     const mps__particles *s = &sim->world.particles;
@@ -25,7 +25,7 @@ static double covered(mps_sim *sim, const mps__lattice_box *box, int axis, int64
     return walls / points;
 }
 
-/* A box that lies on a wall is a step of it, not a plate. */
+/* A box on a wall is a step of it, not a plate. */
 static bool lies_on_wall(mps_sim *sim, const mps__lattice_box *box, int axis)
 {
     for (int64_t beyond = 0; beyond < 2; beyond++)

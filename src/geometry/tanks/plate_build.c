@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thin plates. Each side gets walls and shadows of its own; walls it stands on are divided between the sides. */
+/* Thin plates. Each side has its own walls and shadows; walls at the foot of the plate are divided
+ * between the sides. */
 #include "geometry.h"
 #include "angles.h"
 #include <math.h>
@@ -8,42 +9,45 @@
 /* Edges: in the liquid, on a wall with dummies behind it, on another plate. */
 enum { EDGE_FREE = 0, EDGE_WALL = 1, EDGE_PLATE = 2 };
 
-/* Nodes take the place of walls nearer than `same` [dp] along the plate and `in_plane` across it. The end of a plate stands on a wall nearer
- * than `touching`; nodes that are not on the lattice keep `apart` from it. */
+/* Nodes replace walls nearer than `same` [dp] along the plate and `in_plane` across it. The end of
+ * a plate is on a wall nearer than `touching`; nodes that are not on the lattice keep the distance
+ * `apart` from it. */
 static const double same = 0.3, in_plane = 0.05, touching = 0.75, apart = 0.5;
 
-/* How far a plate hides what lies beside it in a wall it stands on [dp]: also the gap it may leave there. */
+/* Depth to which a plate occludes particles beside it in a wall at its foot [dp]; also the gap it
+ * may leave there. */
 static const double foot_depth = 2.5;
 
-/* The area of an edge without thickness, in parts of a particle's: only its direction means something. */
+/* Area of an edge without thickness, relative to that of a particle: only its direction is
+ * significant. */
 static const double edge_area = 1e-6;
 
-/* A particle that is there already: its place along the plate and above it [m]. */
+/* An existing particle: its position along the plate and above it [m]. */
 typedef struct resident {
     int64_t i;
     double at[2], height;
 } resident;
 
-/* What is to become of a place. */
+/* The particle of a node. */
 typedef struct place {
     double X[3], area[3];
     int32_t kind, part, plate;
-    int64_t resident; /* particle to be changed, -1: a new one */
+    int64_t resident; /* existing particle to be changed, -1: a new one */
 } place;
 
 typedef struct builder {
     mps_sim *sim;
     mps__plate_shape shape;
-    int32_t dim, part, number; /* number of the screen + 1 */
+    int32_t dim, part, number; /* number: of the plate as occluder, + 1 */
     double dp;
     int32_t edge[2][2];
-    bool closed[2][2]; /* the plate was made longer by a node, up to the wall */
+    bool closed[2][2]; /* the plate was extended by a node, up to the wall */
     resident *residents;
     place *places;
     int64_t resident_count, resident_capacity, place_count, place_capacity, fresh, taken;
 } builder;
 
-/* ---- what is there already ---- */
+/* ---- existing particles ---- */
 
 static double component(const double *v, const double *X, const double *corner, int dim)
 {
@@ -85,7 +89,8 @@ static mps_status find_residents(builder *b)
     return MPS_OK;
 }
 
-/* Distance along the plate, and above it, of a resident from a node of a column at `height` [m]. */
+/* Distance along the plate, and above it, of an existing particle from a node of a column at
+ * `height` [m]. */
 static void distances(const builder *b, const resident *r, const int64_t node[2], double height,
                       double *along, double *above)
 {
@@ -107,7 +112,7 @@ static double column_height(const builder *b, int32_t c)
     return (c - 0.5 * (b->shape.columns - 1)) * b->shape.across;
 }
 
-/* What a node of an edge stands on. */
+/* Kind of the edge at one of its nodes. */
 static int32_t node_stands_on(const builder *b, const int64_t node[2], double height)
 {
     const mps__particles *s = &b->sim->world.particles;
@@ -122,7 +127,7 @@ static int32_t node_stands_on(const builder *b, const int64_t node[2], double he
     return EDGE_FREE;
 }
 
-/* What the whole edge at one end of direction e stands on, `beyond` nodes further out. */
+/* Kind of the whole edge at one end of direction e, evaluated `beyond` nodes further out. */
 static int32_t edge_stands_on(const builder *b, int e, int end, int64_t beyond)
 {
     const int64_t across = b->shape.nodes[1 - e];
@@ -138,7 +143,7 @@ static int32_t edge_stands_on(const builder *b, int e, int end, int64_t beyond)
     return kind;
 }
 
-/* A plate of the lattice whose last node is next to a wall stands on it. */
+/* A plate on the lattice whose last node is next to a wall is extended to it. */
 static void reach_wall(builder *b, int e, int end)
 {
     if (b->shape.axis < 0 || edge_stands_on(b, e, end, 0) != EDGE_FREE ||
@@ -160,7 +165,7 @@ static void find_edges(builder *b)
         for (int end = 0; end < 2; end++) b->edge[e][end] = edge_stands_on(b, e, end, 0);
 }
 
-/* ---- places ---- */
+/* ---- nodes ---- */
 
 static mps_status add_place(builder *b, const place *p)
 {
@@ -183,7 +188,7 @@ static bool on_edge(const builder *b, const int64_t node[2], int e, int end)
     return node[e] == (end ? b->shape.nodes[e] - 1 : 0);
 }
 
-/* Trapezoid rule along direction e. */
+/* Trapezoidal rule along direction e. */
 static double share_along(const builder *b, const int64_t node[2], int e)
 {
     if (e == 1 && b->dim == 2) return 1;
@@ -192,7 +197,7 @@ static double share_along(const builder *b, const int64_t node[2], int e)
                                                                                         : 1.0);
 }
 
-/* Area vector of the edges of the plate in the liquid; a plate of one column has none to speak of. */
+/* Area vector of the edges of the plate in the liquid; negligible for a plate of one column. */
 static bool free_edges(const builder *b, const int64_t node[2], int32_t c, double area[3])
 {
     const double thickness = b->shape.columns == 1
@@ -212,7 +217,7 @@ static bool free_edges(const builder *b, const int64_t node[2], int32_t c, doubl
     return any;
 }
 
-/* The side a column's wall belongs to: -1, 1, or 0 between them. */
+/* Side of the wall of a column: -1, 1, or 0 between them. */
 static int column_side(const builder *b, int32_t c)
 {
     return c == b->shape.columns - 1 ? 1 : c == 0 ? -1 : 0;
@@ -224,7 +229,8 @@ static void add_face(const builder *b, const int64_t node[2], int side, double a
     for (int d = 0; d < b->dim; d++) area[d] += side * size * b->shape.normal[d];
 }
 
-/* A wall takes part in the liquid at the plate's foot if it looks along the plate; walls in its middle belong to a plate it crosses. */
+/* Whether a wall at the plate's foot is in contact with liquid: its normal is along the plate.
+ * Walls in its middle belong to a plate that it crosses. */
 static bool looks_along(const builder *b, const int64_t node[2], const double *area)
 {
     double inward = 0;
@@ -239,7 +245,8 @@ static bool looks_along(const builder *b, const int64_t node[2], const double *a
     return !foot || inward > 0;
 }
 
-/* A wall the plate stands on: one column divides it into two, of more columns the outer ones keep half of it and the middle is covered. */
+/* A wall at the foot of the plate: one column divides it into two; with more columns the outer ones
+ * keep half of it and the middle is covered. */
 static mps_status divide(builder *b, const int64_t node[2], int32_t c, int64_t i)
 {
     const mps__particles *s = &b->sim->world.particles;
@@ -269,7 +276,7 @@ static mps_status divide(builder *b, const int64_t node[2], int32_t c, int64_t i
     return MPS_OK;
 }
 
-/* A column's node at a place without a particle. */
+/* A column's node at a position without a particle. */
 static mps_status stand_free(builder *b, const int64_t node[2], int32_t c)
 {
     place p = {.kind = MPS_WALL, .part = b->part, .plate = b->number, .resident = -1};
@@ -290,7 +297,7 @@ static mps_status stand_free(builder *b, const int64_t node[2], int32_t c)
     add_face(b, node, column_side(b, c), p.area);
     if (column_side(b, c) == 0 && !tip) {
         p.kind = MPS_DUMMY;
-        p.plate = 0; /* no shadow: both sides see it */
+        p.plate = 0; /* no shadow: visible from both sides */
     }
     return add_place(b, &p);
 }
@@ -322,7 +329,8 @@ static mps_status fill_nodes(builder *b)
     return MPS_OK;
 }
 
-/* Where walls kept nodes away, the others take their share: the faces of a plate that is not on the lattice have its area. */
+/* Where walls displaced nodes, the other nodes get their area: the faces of a plate that is not on
+ * the lattice keep its area. */
 static void restore_area(builder *b)
 {
     double sum = 0, wanted = 1;
@@ -338,7 +346,8 @@ static void restore_area(builder *b)
     }
 }
 
-/* Rows of shadows beyond an edge: those a line that just passes it can point at, and the depth of a wall. */
+/* Layers of shadows beyond an edge: those visible along a line that just passes it, and the depth
+ * of a wall. */
 static int64_t rows_beyond(const builder *b, int e, int end)
 {
     if (e == 1 && b->dim == 2) return 0;
@@ -366,7 +375,7 @@ static mps_status cast_shadows(builder *b)
     return MPS_OK;
 }
 
-/* ---- all at once ---- */
+/* ---- whole plate ---- */
 
 static void set_screen(const builder *b, mps__screen *s)
 {
@@ -377,7 +386,7 @@ static void set_screen(const builder *b, mps__screen *s)
     memcpy(s->along, b->shape.along, sizeof s->along);
     for (int e = 0; e < 2; e++) {
         s->length[e] = (double)(b->shape.nodes[e] - 1) * b->shape.spacing[e];
-        /* lines through the very edge do not pass */
+        /* lines through the edge itself do not pass */
         s->from[e] = -(b->edge[e][0] == EDGE_WALL ? foot_depth : 1e-7) * b->dp;
         s->to[e] = s->length[e] + (b->edge[e][1] == EDGE_WALL ? foot_depth : 1e-7) * b->dp;
     }
@@ -398,7 +407,7 @@ static void put(builder *b, const place *p, int64_t i)
     mps__motion_point(&w->motion, &w->motion.now, p->X, s->x + i * b->dim, NULL, NULL);
 }
 
-/* Fluid nearer than half a spacing to the rectangle of a column. */
+/* Fluid nearer than half a spacing to the rectangle of a column is an error. */
 static mps_status check_fluid(const builder *b, const char *name)
 {
     const mps__world *w = &b->sim->world;

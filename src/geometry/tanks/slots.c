@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slots between walls that face each other and have no lattice point between them: no liquid gets in, the log tells where. */
+/* Slots between facing walls without a lattice point between them: liquid cannot enter; the log
+ * gives their positions. */
 #include "buckets.h"
 #include "angles.h"
 #include "lattice_plan.h"
@@ -7,13 +8,14 @@
 #include <math.h>
 #include <string.h>
 
-/* Walls nearer than `touching` [dp] are in contact. Two walls face each other if the cosine between their normals is below `facing`, and
- * if they are no further than `beside` [dp] apart along the slot. A free lattice point stands `clear` [dp] off both. */
+/* Walls nearer than `touching` [dp] are in contact. Two walls face each other if the cosine between
+ * their normals is below `facing`, and if they are at most `beside` [dp] apart along the slot. A
+ * free lattice point is at least `clear` [dp] from both. */
 static const double touching = 0.3, facing = -0.9, beside = 0.75, clear = 0.5 * (1 - 1e-6);
 
 enum { SLOTS = 8 };
 
-/* The narrowest place between two parts. */
+/* The narrowest position between two parts. */
 typedef struct slot {
     int32_t part[2]; /* the smaller first */
     double width, at[3];
@@ -23,8 +25,8 @@ typedef struct search {
     mps_sim *sim;
     mps__buckets walls;
     int64_t *particle; /* of each point of `walls` */
-    double normal[3];  /* of the wall that is looked from */
-    double width;      /* to the nearest wall that faces it [m] */
+    double normal[3];  /* of the wall at which the search starts */
+    double width;      /* distance to the nearest facing wall [m] */
     int64_t opposite;  /* that wall's particle, -1: none */
     slot slot[SLOTS];
     int count;
@@ -37,7 +39,7 @@ static void wall_place(const mps__particles *s, int64_t i, double X[3])
     memcpy(X, s->ref + i * s->dim, (size_t)s->dim * sizeof *X);
 }
 
-/* Unit normal into the liquid; false if both faces of a wall cancel. */
+/* Unit normal into the liquid; false if the faces of a wall cancel. */
 static bool wall_normal(const search *q, int64_t i, double n[3])
 {
     static const double least = 1e-9; /* [dp^(dim-1)] edges of plates have 1e-6 */
@@ -61,7 +63,7 @@ static void keep_facing(void *user, int64_t point, const double d[3], double r2)
     q->opposite = q->particle[point];
 }
 
-/* Whether liquid fits at a lattice point between the wall at X and the opposite one. */
+/* Whether liquid fits at a lattice point between the wall at X and the facing one. */
 static bool fits(const search *q, const double X[3], const double P[3])
 {
     const double dp = q->sim->world.setup.dp;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Add a solid: distances on the lattice, contour, wall particles and dummies; then everything into the store at once. */
+/* Add a solid: distances on the lattice, contour, wall particles and dummies; finally append all
+ * particles at once. */
 #include "solid.h"
 #include "geometry.h"
 #include "sampling.h"
@@ -7,23 +8,23 @@
 #include <mps/numbers.h>
 #include <string.h>
 
-/* How near to the surface no fluid is placed: the wall's half cell [dp]. */
+/* Distance from the surface within which no fluid is placed: the wall's half cell [dp]. */
 static const double half_cell = 0.5;
-/* Share by which the number of wall particles may differ from surface/dp^(dim-1). */
+/* Relative difference allowed between the number of wall particles and surface/dp^(dim-1). */
 static const double uneven = 0.1;
 
-/* What one call makes. */
+/* Data of one call. */
 typedef struct work {
     mps_sim *sim;
     const mps__solid *solid;
     mps__shape shape;
-    mps__mesh mesh; /* of a solid known by its inside alone */
+    mps__mesh mesh; /* of a solid defined by `inside` alone */
     mps__contour_box box;
     mps__distances distances;
     mps__contour contour;
     mps__buckets others;
     mps__samples samples;
-    double around_lo[3], around_hi[3]; /* of all that is placed */
+    double around_lo[3], around_hi[3]; /* of all new particles */
     bool new_lattice;
 } work;
 
@@ -60,7 +61,7 @@ bool mps__solid_covers(const mps_sim *sim, const double *X)
     return clearance(sim, X, mps__distances_at) < (half_cell + 1e-6) * sim->world.setup.dp;
 }
 
-/* ---- the box and what is there already ---- */
+/* ---- the box and existing particles ---- */
 
 /* Nothing is kept in the plane of an open side and beyond. */
 static void leave_open(mps__contour_box *b, int32_t side, double dp)
@@ -73,7 +74,8 @@ static void leave_open(mps__contour_box *b, int32_t side, double dp)
         b->keep_lo[d] = fmax(b->keep_lo[d], b->lo[d] + half_cell * dp);
 }
 
-/* The lattice point at or below lo, and what has to be kept: with a tank what lies between its walls. */
+/* The lattice point at or below lo, and the region to keep: with a tank, the region between its
+ * walls. */
 static void make_box(work *w)
 {
     mps_sim *sim = w->sim;
@@ -95,7 +97,7 @@ static void make_box(work *w)
     leave_open(b, w->solid->open, dp);
 }
 
-/* Places so far away that their lattice points overflow, or that numbers cannot tell them apart. */
+/* Reject positions whose lattice indices overflow, or that are not distinguishable. */
 static mps_status check_box(const work *w)
 {
     const double dp = w->sim->world.setup.dp;
@@ -109,7 +111,7 @@ static mps_status check_box(const work *w)
     return MPS_OK;
 }
 
-/* Solid particles near the new one, in the tank's frame. */
+/* Solid particles near the new one, in the tank frame. */
 static mps_status collect_others(work *w)
 {
     const mps__particles *s = &w->sim->world.particles;
@@ -129,13 +131,14 @@ static mps_status collect_others(work *w)
 
 /* ---- the surface ---- */
 
-/* A solid known by its inside alone gets a mesh to measure distances from. */
+/* A solid defined by `inside` alone gets a mesh, from which distances are measured. */
 static mps_status find_shape(work *w)
 {
     w->shape = w->solid->shape;
     if (!w->shape.inside || w->shape.mesh) return MPS_OK;
     mps__mesh_init(&w->mesh, &w->sim->context, w->shape.dim);
-    /* the surface may end at a tank's walls, but distances are asked for beyond them: look a little further */
+    /* the surface may end at a tank's walls, but distances are needed beyond them: extend the
+     * search */
     mps__contour_box box = w->box;
     for (int d = 0; d < w->shape.dim; d++) {
         box.anchor[d] = w->around_lo[d];
@@ -178,7 +181,7 @@ static mps_status find_surface(work *w)
 
 /* ---- the particles ---- */
 
-/* Fluid that would be in the solid. */
+/* Fluid inside the solid is an error. */
 static mps_status check_fluid(const work *w)
 {
     const mps__world *world = &w->sim->world;
@@ -209,7 +212,7 @@ static mps_status sample(work *w)
     return mps__samples_dummies(s, w->solid->layers, &w->distances);
 }
 
-/* Walls of others that are inside of the new solid are wetted no more. */
+/* Walls of other solids inside the new solid are no longer wetted. */
 static void cover_walls(const work *w)
 {
     mps__particles *s = &w->sim->world.particles;
@@ -238,8 +241,8 @@ static void append(const work *w, const mps__buckets *from, int32_t kind, int32_
     }
 }
 
-/* Whole cells across the box of the first solid along both horizontal axes, so that liquid fills it evenly from wall to wall; their height
- * gives them the volume of a particle. */
+/* Whole cells across the box of the first solid along both horizontal axes, so that liquid fills it
+ * evenly from wall to wall; their height gives them the volume of a particle. */
 static void fit_cells(const work *w, double *h)
 {
     const double dp = w->sim->world.setup.dp;
@@ -252,7 +255,8 @@ static void fit_cells(const work *w, double *h)
     h[1] = dp * (dp / h[0]) * (dp / h[2]);
 }
 
-/* The lattice of fills: the first solid's, made larger by each further one. A tank's stays. */
+/* The lattice of fills: that of the first solid, extended by each further one. The lattice of a
+ * tank is not changed. */
 static void extend_lattice(work *w)
 {
     mps_sim *sim = w->sim;
@@ -270,8 +274,8 @@ static void extend_lattice(work *w)
     sim->has_tank = sim->lattice_of_solids = true;
 }
 
-/* Number of wall particles for the surface [dp^(dim-1)]: of a file that of its triangles, of which those that are nearer to each other than
- * the cells of the contour may be missing in it. */
+/* Number of wall particles for the surface [dp^(dim-1)]: of a file that of its triangles; triangles
+ * nearer to each other than the cells of the contour may be missing in the contour. */
 static double wanted_walls(const work *w)
 {
     const mps__samples *s = &w->samples;
@@ -326,7 +330,7 @@ static mps_status build(work *w)
     const int32_t part = mps__part_number(s, w->solid->name, true);
     MPS__CHECK(&sim->context, part >= 0, "part \"%s\" is one too many: at most %d", w->solid->name,
                MPS__PARTS_MAX);
-    /* nothing fails from here on */
+    /* nothing can fail from here on */
     cover_walls(w);
     append(w, &w->samples.wall, MPS_WALL, part);
     append(w, &w->samples.dummy, MPS_DUMMY, part);

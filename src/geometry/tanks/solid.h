@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solids of any shape in a simulation. Arguments are checked by the public functions, see api_solid.c. */
+/* Solids of any shape in a simulation. The public functions check arguments: api_solid.c. */
 #ifndef MPS_CORE_SOLID_H
 #define MPS_CORE_SOLID_H
 
 #include "sim.h"
 #include <mps/geometry.h>
 
-/* One solid to add: its shape and the box to look in. */
+/* One solid to add: its shape and its search box. */
 typedef struct mps__solid {
     const char *name;
     int32_t layers; /* of dummies */
@@ -16,10 +16,11 @@ typedef struct mps__solid {
 } mps__solid;
 
 mps_status mps__solid_add(mps_sim *sim, const mps__solid *solid);
-/* Does a place of the tank's frame lie in a solid or nearer than dp/2 to one? Where solids alone make the lattice, places outside of
- * their boxes count as well. */
+/* Whether a position of the tank frame is in a solid or nearer than dp/2 to one. If solids alone
+ * define the lattice, positions outside of their boxes count as well. */
 bool mps__solid_covers(const mps_sim *sim, const double *X);
-/* Distance to the nearest solid of any shape [m]: < 0 in it, INFINITY far from all, -INFINITY outside of a lattice that solids have made. */
+/* Distance to the nearest solid of any shape [m]: < 0 inside, INFINITY far from all, -INFINITY
+ * outside of a lattice defined by solids. */
 double mps__solid_clearance(const mps_sim *sim, const double *X);
 
 #endif

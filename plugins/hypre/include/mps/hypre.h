@@ -5,9 +5,9 @@
  *
  *  hypre needs MPI. If MPI is not running, the library starts it for this process alone and ends it
  *  with the program. A program that uses MPI itself starts it before the first call of this library
- *  and ends it after its last simulation is destroyed. hypre keeps a state for the whole process:
- *  only one handle at a time may step with this solver. hypre takes its memory from malloc and ends
- *  the program if there is none.
+ *  and ends it after its last simulation is destroyed. hypre has one state for the whole process:
+ *  only one handle at a time may step with this solver. hypre allocates with malloc and aborts the
+ *  program if memory runs out.
  *
  *  One simulation on many ranks (mps_mpi_attach()) needs the communicator in
  *  mps_hypre_settings.comm:
@@ -17,9 +17,9 @@
  *      settings.comm = &comm;
  *      mps_hypre_register(sim, &settings);
  *
- *  All ranks make these calls alike. The last digits of the pressures then depend on the number of
- *  ranks and on the cuts between them. hypre waits inside of MPI: if a rank fails or dies there,
- *  the others may wait without end. */
+ *  All ranks make these calls with the same settings. The last digits of the pressures then depend
+ *  on the number of ranks and on the cuts between them. hypre waits inside MPI: if a rank fails or
+ *  dies there, the others may wait forever. */
 #ifndef MPS_HYPRE_H
 #define MPS_HYPRE_H
 
@@ -27,7 +27,7 @@
 
 MPS_BEGIN_DECLS
 
-/** Settings of BoomerAMG; numbers of methods are those of hypre's manual. Fill it with
+/** Settings of BoomerAMG; methods have the numbers of hypre's manual. Initialise it with
  *  mps_hypre_settings_init(). */
 typedef struct mps_hypre_settings {
     /** Set by mps_hypre_settings_init(). */
@@ -36,22 +36,22 @@ typedef struct mps_hypre_settings {
     int32_t coarsening;
     /** 0..18; default 6: extended+i. */
     int32_t interpolation;
-    /** Most entries in a row of the interpolation, 0..100; 0: any number; default 4. */
+    /** Largest number of entries of an interpolation row, 0..100; 0: any number; default 4. */
     int32_t row_entries;
-    /** A symmetric one: 6, 7, 8, 16 or 18; default 18: l1-Jacobi. */
+    /** A symmetric relaxation: 6, 7, 8, 16 or 18; default 18: l1-Jacobi. */
     int32_t relaxation;
     /** Relaxations before and after each coarse grid, 1..16; default 1. */
     int32_t sweeps;
     /** Finest levels that are coarsened twice, 0..25; default 1. */
     int32_t aggressive_levels;
-    /** Least strength of a strong connection, 0 <= threshold < 1; default 0.5. */
+    /** Smallest strength of a strong connection, 0 <= threshold < 1; default 0.5. */
     double threshold;
-    /** NULL, or where a failed call of this library writes why. */
+    /** NULL, or buffer for the text of a failed call of this library. */
     char *error;
-    /** Bytes at `error`. */
+    /** Size of `error` [bytes]. */
     size_t error_size;
     /** NULL: MPI_COMM_SELF, for simulations on one rank. Otherwise points to an MPI_Comm whose
-     *  ranks are those of the simulation, in the same order. hypre sends its messages on this
+     *  ranks are those of the simulation, in the same order. hypre uses this
      *  communicator itself: it must stay valid until the handle is destroyed. */
     const void *comm;
 } mps_hypre_settings;
@@ -63,8 +63,8 @@ MPS_API mps_status mps_hypre_settings_init(mps_hypre_settings *settings, size_t 
 /** Table of the solver, for mps_solver_register() or to be called directly. Starts MPI if it is not
  *  running. The solver fails with MPS_PPE_BREAKDOWN if the ranks of an equation are not those of
  *  settings->comm.
- *  @param settings  NULL for the defaults; otherwise borrowed, and read when a state is created,
- *                   which mps_solver_use() does
+ *  @param settings  NULL for the defaults; otherwise borrowed, and read when mps_solver_use()
+ *                   creates a state
  *  @param ops       out
  *  @return MPS_E_ARG (which setting is wrong, and what is allowed), MPS_E_VERSION, MPS_E_STATE if
  *          MPI has ended already or does not start; text in settings->error */
@@ -72,9 +72,9 @@ MPS_API mps_status mps_hypre_solver(const mps_hypre_settings *settings, mps_solv
 
 /** Register "hypre.boomeramg" on a handle. mps_solver_use(sim, "hypre.boomeramg", NULL) then
  *  chooses it.
- *  @param settings  as for mps_hypre_solver(); must live until the handle is destroyed
+ *  @param settings  as for mps_hypre_solver(); must stay valid until the handle is destroyed
  *  @return as mps_hypre_solver() and mps_solver_register(); MPS_E_STATE if the ranks of the handle
- *          are not those of settings->comm, e.g. because mps_mpi_attach() comes later */
+ *          are not those of settings->comm, e.g. because mps_mpi_attach() is called later */
 MPS_API mps_status mps_hypre_register(mps_sim *sim, const mps_hypre_settings *settings);
 
 MPS_END_DECLS
