@@ -65,7 +65,7 @@ class Interface:
 
 
 def _headers() -> list[Path]:
-    """All headers, each behind those that it includes."""
+    """All headers, each after the headers that it includes."""
     found: list[Path] = []
 
     def visit(path: Path) -> None:
@@ -109,7 +109,7 @@ def _arguments(text: str) -> list[Member]:
 
 
 def _split(text: str, separator: str) -> list[str]:
-    """Parts of a text between separators that stand in no bracket."""
+    """Split a text at separators outside brackets."""
     parts, depth, begin = [], 0, 0
     for k, c in enumerate(text):
         depth += (c in "({[") - (c in ")}]")
@@ -183,7 +183,7 @@ def _plain(text: str) -> str:
 
 
 def _without_inline(text: str) -> str:
-    """Without the bodies of inline functions."""
+    """Remove the bodies of inline functions."""
     while (m := re.search(r"^static inline\b[^;{]*\{", text, re.M)) is not None:
         depth, k = 1, m.end()
         while depth:
@@ -219,7 +219,7 @@ def _read_header(path: Path, all_: Interface) -> None:
 
 
 def read() -> Interface:
-    """The interface as the headers have it."""
+    """The interface as declared in the headers."""
     all_ = Interface()
     for path in _headers():
         if path.name not in NO_INTERFACE:
@@ -228,7 +228,7 @@ def read() -> Interface:
 
 
 def layouts(structs: list[Struct], compiler: str = "cc") -> dict[str, tuple[int, dict[str, int]]]:
-    """Size of each struct and offsets of its members, as the compiler has them."""
+    """Size of each struct and offsets of its members, from the compiler."""
     lines = [f"#include <mps/{h}>" for h in sorted({s.header for s in structs})] + ["#include <stddef.h>", "#include <stdio.h>",
                                                                                 "int main(void) {"]
     for s in structs:

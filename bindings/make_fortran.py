@@ -83,7 +83,7 @@ def types(all_: Interface, structs: list[Struct]) -> list[str]:
 
 
 def check(structs: list[Struct]) -> list[str]:
-    """Whether the compiler of Fortran lays the types out as that of C does."""
+    """Whether the Fortran compiler has the same layout of types as the C compiler."""
     out = ["", "    !> Name of the first type that this compiler lays out in another way than C, or blanks.",
            "    function mps_layout_differs() result(name)", "        character(len=32) :: name"]
     out += [f"        type({s.name}) :: {s.name}_" for s in structs] + ["        name = ' '"]

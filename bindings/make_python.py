@@ -43,7 +43,7 @@ def shape(m: Member, all_: Interface) -> str:
 
 
 def packed(words: list[str], begin: str = "    ", width: int = 132) -> list[str]:
-    """Words, with a comma behind each, in lines."""
+    """Words, each followed by a comma, in lines."""
     lines = [begin]
     for word in words:
         if len(lines[-1]) + len(word) + 2 > width and lines[-1].strip():
@@ -71,7 +71,7 @@ CTYPES = ["from ctypes import (CFUNCTYPE, POINTER, Structure, c_char, c_char_p, 
 
 
 def types(all_: Interface, names: set[str]) -> list[str]:
-    """Structs without their members, which may point to each other, and callbacks."""
+    """Structs without members, because these may point to other structs, and callbacks."""
     out = head("Names of structs, callbacks") + CTYPES + [""]
     for name in all_.opaque + [s.name for s in all_.structs]:
         out += [f"class {name}(Structure): ..."]

@@ -10,13 +10,13 @@
 
 enum { MEASURED = 24 };
 
-/* The drawing. Without --out, and where the present folder takes no files, the text
- * of the check is what counts. */
+/* Write the drawing. Without --out, if the current folder is not writable, only the text of the
+ * check counts. */
 static int save(const choices *c, const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
     bool good = file != NULL;
-    if (file) { /* an error of a write stays until the end */
+    if (file) { /* a write error is kept until the end */
         fputs(text, file);
         good = !ferror(file);
         if (fclose(file) != 0) good = false;
@@ -32,13 +32,13 @@ static int save(const choices *c, const char *path, const char *text)
 
 /* ---- a sweep ---- */
 
-/* Sums over the runs of a sweep; costs are those of `measured` runs. */
+/* Totals of the runs of a sweep; costs are those of `measured` runs. */
 typedef struct sweep_cost {
     int64_t runs, refused, measured;
     double least, most, longest, memory;
 } sweep_cost;
 
-/* Read and build a run of a sweep; with `measure` its first steps are taken too. */
+/* Read and build a run of a sweep; with `measure` also compute its first steps. */
 static void add_run(const choices *c, const mps_case *tank, int64_t index, bool measure,
                     sweep_cost *s)
 {
@@ -80,7 +80,8 @@ static void print_span(double least, double most)
                       : "s");
 }
 
-/* All runs of a sweep: each is built, and steps are measured in at most MEASURED of them. @return exit code */
+/* Check all runs of a sweep: each is built, and steps are measured in at most MEASURED of them.
+ * @return exit code */
 static int check_sweep(const choices *c, const mps_case *tank)
 {
     sweep_cost s = {.runs = mps_case_runs(tank)};

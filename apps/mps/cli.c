@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reading the command line. */
+/* Parses the command line. */
 #include "cli.h"
 #include <errno.h>
 #include <stdio.h>
@@ -79,7 +79,8 @@ static int refuse(const choices *c, const char *what, const char *why)
     return MPS_EXIT_USAGE;
 }
 
-/* The option that an argument names, and its value: "--out x", "--out=x", "-o x", "-ox". @return NULL: there is none */
+/* Find the option of an argument, and its value: "--out x", "--out=x", "-o x", "-ox".
+ * @return NULL: not found */
 static const option *find(int32_t bits, const char *argument, const char **value)
 {
     const char *equals = strchr(argument, '=');

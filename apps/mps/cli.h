@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The command line of mps: verbs with their options. */
+/* The command line of mps: commands (verbs) with their options. */
 #ifndef MPS_APPS_CLI_H
 #define MPS_APPS_CLI_H
 
@@ -11,35 +11,35 @@
 
 enum { CLI_SETS = 64, CLI_FILES = 64, CLI_PLUGINS = 16 };
 
-/* Messages of one of many ranks, until it is known which rank shows its own. */
+/* Messages of one of many ranks, kept until it is known which rank shows its own. */
 typedef struct cli_text {
     char text[8192];
     mps_job_ranks ranks;
 } cli_text;
 
-/* What a user has asked for. */
+/* The parsed command line. */
 typedef struct choices {
-    cli_text *kept; /* NULL: one process, whose messages go to stderr at once */
+    cli_text *kept; /* NULL: one process, whose messages go directly to stderr */
     const char *program, *verb;
     int32_t files, sets;
     const char *file[CLI_FILES];   /* arguments that are no options */
     const char *set[CLI_SETS + 8]; /* "path=value"; a verb adds its own */
     int32_t plugins;
     const char *plugin[CLI_PLUGINS]; /* files */
-    const char *out;                 /* NULL: as the verb has it */
-    const char *device;              /* NULL: the host */
+    const char *out;                 /* NULL: default of the verb */
+    const char *device;              /* NULL: the host processor */
     const char *degrees, *omega, *period, *amplitude;
     const char *part; /* "I/N", NULL: all */
-    int32_t threads;  /* 0: as the case says */
-    int32_t jobs;     /* processes; 0: one, this one */
-    int32_t count;    /* 0: as the verb has it */
-    int32_t fmi;      /* version, 0: as the verb has it */
-    int32_t periods;  /* 0: as the verb has it */
+    int32_t threads;  /* 0: as in the case */
+    int32_t jobs;     /* processes; 0: this one only */
+    int32_t count;    /* 0: default of the verb */
+    int32_t fmi;      /* version, 0: default of the verb */
+    int32_t periods;  /* 0: default of the verb */
     bool overwrite, resume, quiet, profile, mpi, allow_plugins;
-    char command[1024]; /* the whole line */
+    char command[1024]; /* the whole command line */
 } choices;
 
-/* Options, as bits: which a verb has. */
+/* Options of a verb, as bits. */
 enum {
     HAS_SET = 1,
     HAS_OUT = 2,
@@ -57,16 +57,16 @@ enum {
     HAS_TRUST = 8192, /* --allow-plugins */
     HAS_JOBS = 16384,
     HAS_PART = 32768,
-    HAS_MAP = 65536 /* in place of HAS_SET: the texts are in `set` */
+    HAS_MAP = 65536 /* instead of HAS_SET: the texts are in `set` */
 };
 
 /* A verb: `mps VERB ARGUMENTS`. @return exit code, MPS_EXIT_... */
 typedef struct verb {
     const char *name, *arguments, *help;
-    int32_t few, many; /* arguments */
+    int32_t few, many; /* number of arguments */
     int32_t options;
     int (*run)(const choices *c);
-    const char *more; /* text behind the options of `mps VERB --help`, or NULL */
+    const char *more; /* text after the options of `mps VERB --help`, or NULL */
 } verb;
 
 /* All verbs, in the order of `mps --help`. */
@@ -81,14 +81,14 @@ typedef enum option_kind {
     OPTION_PLUGIN
 } option_kind;
 
-/* An option: the verbs with its bit have it. */
+/* An option: available to verbs with its bit. */
 typedef struct option {
     int32_t bit;
     const char *name; /* "--set" */
     char letter;      /* 's', 0: none */
     const char *argument, *help;
     option_kind kind;
-    size_t place; /* in choices: bool, const char * or int32_t, by kind */
+    size_t place; /* offset in choices: bool, const char * or int32_t, by kind */
 } option;
 
 extern const option cli_options[];
@@ -111,33 +111,39 @@ int verb_list(const choices *c);
 int verb_info(const choices *c);
 int verb_schema(const choices *c);
 
-/* Read the line; prints help or what is wrong. @return -1: go on; else the exit code */
+/* Parse the command line; prints help or the error. @return -1: continue; else the exit code */
 int cli_read(choices *c, const verb *v, int argc, char **argv);
 void cli_print_help(const verb *v);
-/* Read the case of a line with its values and plug-ins. */
+/* Read the case of a command line with its values and plug-ins. */
 mps_status cli_open(const choices *c, mps_case **out);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
-/* Run a case into a folder; `begin` has resume and error, the choices say the rest. @return exit code */
-/* @param busy  NULL, or out: another process runs in the folder, which is no failure then and gives no message */
+/* Run a case into a folder; `begin` has resume and error, the choices have the rest.
+ * @return exit code */
+/* @param busy  NULL, or out: another process runs in the folder, which is then no failure and has
+ * no message */
 int cli_run(const choices *c, const mps_job_config *begin, const char *folder, bool *busy);
-/* With --mpi among the arguments: begin with MPI, before anything is printed. @return -1: go on; else the exit code */
+/* With --mpi among the arguments: initialise MPI before anything is printed.
+ * @return -1: continue; else the exit code */
 int cli_begin(choices *c, int argc, char **argv);
-/* Several processes that are not one run would write to one folder. @return -1: go on; else the exit code */
+/* Refuse several processes that are not one run and would write to one folder.
+ * @return -1: continue; else the exit code */
 int cli_check_alone(const choices *c);
-/* A message. */
+/* Print a message. */
 void cli_say(const choices *c, const char *format, ...);
-/* Whether all ranks go on, those with code >= 0 do not; one of them shows its messages. @return -1: go on; else the exit code of all */
+/* Agree on whether all ranks continue, which they do if all have code < 0; one of the failed ranks
+ * shows its messages.
+ * @return -1: continue; else the exit code of all */
 int cli_agree(const choices *c, int code);
 /* The end of a run on all ranks; one of them shows its messages. @return exit code of all */
 int cli_end(const choices *c, int code);
-/* Cases to start from, with their titles. */
+/* List cases to start from, with their titles. */
 void cli_list_cases(FILE *out);
-/* All that was printed is written. @return code, or that of a failure, which is told */
+/* Flush all output. @return code, or that of a failure, which is reported */
 int cli_flush(const choices *c, int code);
-/* "surge" of "cases/surge.yaml". */
+/* Extract "surge" from "cases/surge.yaml". */
 void cli_stem(const char *path, char *out, size_t size);
-/* Bytes of the messages of a case, and print those behind these bytes. */
+/* Bytes of the messages of a case; print those after the first `before` bytes. */
 size_t cli_messages(const mps_case *tank);
 void cli_print_messages(const choices *c, const mps_case *tank, size_t before);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps coefficients: forced oscillations of a tank, one run for each degree and frequency, and a slow tilt for each angle. */
+/* mps coefficients: forced oscillations of a tank, one run for each degree of freedom and
+ * frequency, and a slow tilt for each angle. */
 #include "coefficients.h"
 #include <errno.h>
 #include <math.h>
@@ -9,14 +10,15 @@
 
 enum { ROLL = 3, TEXT_SIZE = 512, MOTION_SIZE = 2048, TILT_ROWS = 241, PERIODS_USUAL = 12 };
 
-/* w/w1 where none are given. At 1 the waves grow until they break. */
+/* Default w/w1. At 1 the waves grow until they break. */
 static const double RATIOS[] = {0.5,  0.6, 0.7,  0.8, 0.85, 0.9, 0.95,
                                 1.05, 1.1, 1.15, 1.2, 1.3,  1.4, 1.5};
 
-/* A slow tilt [T1]: at rest, then over from the first to the second time, then held to the third; loads are means over whole periods. */
+/* A slow tilt [T1]: at rest, tilted between the first and the second time, fixed until the third;
+ * loads are means over whole periods. */
 static const double TILT_BEGIN = 4, TILT_END = 12, TILT_UNTIL = 16, TILT_ANGLE = 1;
 
-/* ---- what is asked for ---- */
+/* ---- requested runs ---- */
 
 /* Each line of the text of a case ends with '\n'. */
 static const char *next_line(const char *line)
@@ -24,7 +26,8 @@ static const char *next_line(const char *line)
     return line + strcspn(line, "\n") + 1;
 }
 
-/* The next line of the block of a key, "  centre: 0 0 m"; NULL: it ends. @param line  NULL: the first */
+/* The next line of the block of a key, " centre: 0 0 m"; NULL: end of the block.
+ * @param line  NULL: the first */
 static const char *block_line(const mps_case *tank, const char *key, const char *line)
 {
     const size_t length = strlen(key);
@@ -34,12 +37,15 @@ static const char *block_line(const mps_case *tank, const char *key, const char 
             line = next_line(line);
         if (!*line) return NULL;
     }
+    /* indented by two blanks */
     for (line = next_line(line); *line == ' '; line = next_line(line))
-        if (line[2] != ' ') return line; /* by two blanks */
+        if (line[2] != ' ') return line;
     return NULL;
 }
 
-/* Centre and axes of the motion, or of the body; degrees that it moves, where the user names none. @return false: they have no room */
+/* Centre and axes of the motion, or of the body; degrees of freedom that it moves, if the user
+ * names none.
+ * @return false: the buffer is too small */
 static bool read_block(coefficients *k, const mps_case *tank, const char *key)
 {
     static const char *const kept[] = {"centre", "axes", "forward", "order"};
@@ -70,12 +76,12 @@ static int no_memory(const coefficients *k)
     return MPS_EXIT_FAILED;
 }
 
-/* "surge roll". @return -1, or the exit code */
+/* Parse "surge roll". @return -1, or the exit code */
 static int read_degrees(coefficients *k)
 {
     const char *at = k->c->degrees;
     char name[TEXT_SIZE];
-    while (at && *(at += strspn(at, ", "))) { /* without --degrees they are those of the case */
+    while (at && *(at += strspn(at, ", "))) { /* without --degrees those of the case */
         const size_t length = strcspn(at, ", ");
         const int32_t degree = forced_degree(at, length);
         snprintf(name, sizeof name, "--degrees: '%.*s'", (int)length, at);
@@ -102,7 +108,8 @@ static void motion_text(const coefficients *k, int32_t degree, const char *frequ
              (int)ramp);
 }
 
-/* Whether the reader finds the amplitude of a motion at fault; other messages are left to the runs, whose case they are about. */
+/* Whether the reader refuses the amplitude of a motion; other messages concern the case and are
+ * left to the runs. */
 static bool amplitude_fails(const mps_case *c, int32_t degree)
 {
     char size[64], slope[64];
@@ -116,7 +123,8 @@ static bool amplitude_fails(const mps_case *c, int32_t degree)
     return false;
 }
 
-/* The amplitude in each degree that moves, before the first run. @return -1, or the exit code */
+/* Check the amplitude in each moving degree of freedom before the first run.
+ * @return -1, or the exit code */
 static int check_amplitude(const coefficients *k)
 {
     static const char *const allowed[2] = {
@@ -132,7 +140,7 @@ static int check_amplitude(const coefficients *k)
         motion_text(k, degree, "period: 1 s", 1, motion);
         one.set[one.sets++] = motion;
         const mps_status status = cli_open(&one, &tank);
-        /* one value, and not more of the motion behind it */
+        /* one value, without further keys of the motion */
         const bool bad = size[strcspn(size, ",:#{}[]\"'\n")] || !(fabs(strtod(size, NULL)) > 0) ||
                          amplitude_fails(tank, degree);
         mps_case_destroy(tank);
@@ -143,7 +151,7 @@ static int check_amplitude(const coefficients *k)
     return -1;
 }
 
-/* Frequencies, by a sweep that the reader checks. @return -1, or the exit code */
+/* Read frequencies as a sweep, which the reader checks. @return -1, or the exit code */
 static int read_frequencies(coefficients *k)
 {
     char motion[MOTION_SIZE], sweep[MOTION_SIZE], list[TEXT_SIZE] = "", got[TEXT_SIZE];
@@ -180,7 +188,7 @@ static int read_frequencies(coefficients *k)
 
 /* ---- the runs ---- */
 
-/* Periods that are measured: more where the beat of forced and free wave is slow. */
+/* Number of measured periods: more if the beat of forced and free wave is slow. */
 static int32_t periods_of(const coefficients *k, int32_t n)
 {
     const int least = 8, most = 24;
@@ -239,7 +247,7 @@ static int run_forced(coefficients *k, int32_t at, int32_t n, int32_t runs)
     return read ? MPS_EXIT_OK : MPS_EXIT_FAILED;
 }
 
-/* The table of a slow tilt. */
+/* Write the table of a slow tilt. */
 static bool write_tilt(const char *path, const char *name, double T1)
 {
     FILE *out = fopen(path, "w");
@@ -256,7 +264,8 @@ static bool write_tilt(const char *path, const char *name, double T1)
     return failed == 0;
 }
 
-/* A text of YAML in single quotes: those within it are doubled. @param out  [twice the text and 3] */
+/* Quote a YAML text in single quotes: those inside are doubled.
+ * @param out  [twice the text and 3] */
 static void quote(const char *text, char *out)
 {
     *out++ = '\'';
@@ -268,7 +277,7 @@ static void quote(const char *text, char *out)
     *out = '\0';
 }
 
-/* C of an angle. @param T1  [s] */
+/* Compute C of an angle. @param T1  [s] */
 static int run_tilt(coefficients *k, int32_t at, int32_t index, int32_t runs, double T1)
 {
     const double from[2] = {T1, T1 * (TILT_UNTIL - 3)}, until[2] = {T1 * 4, T1 * TILT_UNTIL};
@@ -304,7 +313,7 @@ static double tilt_time(const coefficients *k)
     return longest;
 }
 
-/* What the spring of a tilt adds to A. */
+/* Add the restoring term of a tilt to A. */
 static void take_restoring(coefficients *k)
 {
     for (int32_t at = 0; at < k->degrees; at++)
@@ -343,8 +352,7 @@ static int do_all(coefficients *k)
     k->result = calloc((size_t)k->degrees * (size_t)k->count, sizeof *k->result);
     if (!k->result) return no_memory(k);
     for (int32_t i = 0; i < k->degrees * k->count; i++) k->result[i].omega = NAN;
-    for (int32_t at = 0; at < k->degrees;
-         at++) /* a shift has no spring, a turn none that is known yet */
+    for (int32_t at = 0; at < k->degrees; at++) /* translations: 0; rotations: not known yet */
         for (int32_t i = 0; i < FORCED_DEGREES; i++)
             k->C[i][k->degree[at]] = k->degree[at] < ROLL ? 0 : NAN;
     const int worst = run_all(k);
@@ -373,7 +381,7 @@ int verb_coefficients(const choices *c)
     mps_case_destroy(tank);
     if (!kept) return refuse(&k, c->file[0], "centre, axes, forward and order are too long");
     if (swept) return refuse(&k, c->file[0], "the case has a sweep; use 'mps sweep'");
-    /* no run has a longer name than the last of all that there can be */
+    /* no run has a longer folder name than the last possible one */
     if (!series_folder(k.place, FORCED_DEGREES * (FREQUENCIES_MOST + 1) - 1, folder))
         return refuse(&k, "--out", "is too long");
     code = read_degrees(&k);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables of mps coefficients. */
+/* Writes the tables of mps coefficients. */
 #include "coefficients.h"
 #include <errno.h>
 #include <math.h>
@@ -8,7 +8,7 @@
 
 enum { ROLL = 3, PATH_SIZE = SERIES_PATH + 32 };
 
-/* Units of A, B, C by dimension and by how many of load and motion are turns. */
+/* Units of A, B, C by dimension and by the number of rotations among load and motion. */
 static const char *const UNIT_A[2][3] = {{"kg/m", "kg", "kg m"}, {"kg", "kg m", "kg m2"}};
 static const char *const UNIT_B[2][3] = {{"kg/(m s)", "kg/s", "kg m/s"},
                                          {"kg/s", "kg m/s", "kg m2/s"}};
@@ -25,7 +25,7 @@ static double period_of(const forced *f)
     return 2 * acos(-1.0) / f->omega;
 }
 
-/* The first result of a motion; NULL: there is none. */
+/* The first result of a motion; NULL: none. */
 static const forced *first_of(const coefficients *k, int32_t at)
 {
     for (int32_t n = 0; n < k->count; n++)
@@ -33,7 +33,7 @@ static const forced *first_of(const coefficients *k, int32_t at)
     return NULL;
 }
 
-/* The first result of a frequency, of any motion; NULL: none has it. */
+/* The first result of a frequency, of any motion; NULL: none. */
 static const forced *any_of(const coefficients *k, int32_t n)
 {
     for (int32_t at = 0; at < k->degrees; at++)
@@ -132,7 +132,7 @@ static void write_row(const coefficients *k, FILE *out, int32_t n)
     fputc('\n', out);
 }
 
-/* Period, load, motion, A, B; nothing else. */
+/* Write period, load, motion, A, B only. */
 static void write_plain(const coefficients *k, FILE *out, int32_t n)
 {
     for (int32_t i = 0; i < FORCED_DEGREES; i++)

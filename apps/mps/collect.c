@@ -29,7 +29,7 @@ static double find_min(const signal *s)
     return least;
 }
 
-/* Rows are at equal times. */
+/* Rows are equidistant in time. */
 static double find_mean(const signal *s)
 {
     double sum = 0;
@@ -47,7 +47,8 @@ static double find_last(const signal *s)
     return s->n > 0 ? s->value[s->n - 1] : NAN;
 }
 
-/* At full scale, as 'mps stats' prints it; nan: too few events. @param kind  of the fit, MPS_FIT_.. */
+/* At full scale, as 'mps stats' prints it; nan: too few events.
+ * @param kind  of the fit, MPS_FIT_.. */
 static double find_exceeded(const signal *s, int32_t kind)
 {
     mps_impacts *impacts = NULL;
@@ -86,7 +87,7 @@ static double find_harmonic(const signal *s)
 static const struct {
     const char *name;
     double (*find)(const signal *s);
-    bool pressure; /* of pressures alone */
+    bool pressure; /* for pressures only */
 } STATISTICS[] = {{"max", find_max, false},          {"min", find_min, false},
                   {"mean", find_mean, false},        {"last", find_last, false},
                   {"p3h", find_p3h, true},           {"p3h_pareto", find_p3h_pareto, true},

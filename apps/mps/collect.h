@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a sweep collects of each run: statistics of columns, "P1.max". */
+/* Statistics of columns that a sweep collects from each run, "P1.max". */
 #ifndef MPS_APPS_COLLECT_H
 #define MPS_APPS_COLLECT_H
 
@@ -22,20 +22,25 @@ typedef struct collect {
     int32_t entries;
 } collect;
 
-/* "[P1.max, F.last]" of the case; without it the largest value of each column. @param name  of the verb @return false: an entry is wrong, which is told */
+/* Parse "[P1.max, F.last]" of the case; default: the largest value of each column.
+ * @param name  of the verb
+ * @return false: an entry is invalid, with a message */
 bool collect_read(collect *s, const mps_case *tank, const char *name);
-/* Each entry has a column, with a unit that fits. @return false: one has none, which is told */
+/* Check that each entry has a column, with a unit that fits.
+ * @return false: one has none, with a message */
 bool collect_fits(const collect *s, const mps_table *rows);
-/* Names of the columns of the sweep's table, each behind a comma. */
+/* Write the column names of the sweep's table, each after a comma. */
 void collect_names(const collect *s, FILE *out, const mps_table *rows);
-/* Values of a run. Columns are those of `first`; one that the run does not have is nan.
- * @param folder  of the run, for the constants of its statistics @param rows  NULL: it has none */
+/* Write the values of a run. Columns are those of `first`; a column missing in the run is nan.
+ * @param folder  of the run, for the constants of its statistics
+ * @param rows  NULL: it has none */
 void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
                     const mps_table *rows);
 
-/* A text as a field of a CSV file, behind a comma. */
+/* Write a text as a field of a CSV file, after a comma. */
 void collect_text(FILE *out, const char *text);
-/* A table that is written beside its place and renamed, since several processes may write it. @return NULL with errno */
+/* Open a temporary file of a table that several processes may write; it is renamed when closed.
+ * @return NULL with errno */
 FILE *collect_open(const char *path);
 /* @return exit code; a failure is printed */
 int collect_close(const char *name, FILE *out, const char *path);

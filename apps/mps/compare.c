@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps compare: how the columns of runs differ from those of the first run, from a table, and
- * from the known values of the case. */
+/* mps compare: differences of the columns of runs from those of the first run, from a table, and
+ * from the reference values of the case. */
 #include "cli.h"
 #include "constants.h"
 #include "record.h"
@@ -13,15 +13,15 @@
 
 enum { CELL = 10, NAME = 160 };
 
-/* Two tables, of which one is a run, and what is compared. */
+/* Two tables, at least one of a run, and the state of the comparison. */
 typedef struct pair {
     const choices *c;
     mps_stats_config *config;
     const record *first, *second;
-    bool reference; /* the first is a table of known values; else both are runs */
+    bool reference; /* the first is a table of reference values; else both are runs */
     int shared, compared;
-    /* columns that every run has, in a line behind the others: how many, and the one that
-     * differs most */
+    /* summary of the columns that every run has, in a line after the others: their number, and the
+     * one that differs most */
     bool fold;
     int folded;
     double worst;
@@ -40,8 +40,8 @@ static const record *other_of(const pair *p)
     return p->reference ? p->first : p->second;
 }
 
-/* The name that the line gives to a column of the run in the other table; its own where it gives
- * none. */
+/* The name that the command line assigns to a column of the run in the other table; otherwise its
+ * own. */
 static const char *mapped(const choices *c, const char *name)
 {
     const size_t length = strlen(name);
@@ -51,7 +51,7 @@ static const char *mapped(const choices *c, const char *name)
     return name;
 }
 
-/* A --map that names no column. @return exit code, -1: all are good */
+/* Refuse a --map that names no column. @return exit code, -1: all are valid */
 static int check_map(const pair *p)
 {
     for (int32_t k = 0; k < p->c->sets; k++) {
@@ -73,14 +73,14 @@ static int check_map(const pair *p)
     return -1;
 }
 
-/* One of a unit in units of another; of columns without a unit 1. NAN: they are of different
+/* Conversion factor between units; 1 for columns without a unit. NAN: they are of different
  * kinds */
 static double factor_of(const char *from, const char *to)
 {
     return from[0] && to[0] ? mps_unit_factor(from, to) : 1;
 }
 
-/* The only column of a record with a unit of this kind; -1: there are none or several. */
+/* The only column of a record with a unit of this kind; -1: none or several. */
 static int32_t only_of(const record *r, const char *unit)
 {
     int32_t found = -1;
@@ -92,9 +92,9 @@ static int32_t only_of(const record *r, const char *unit)
     return found;
 }
 
-/* The column of the other table that belongs to column k of the run; -1: none. A reference of a
- * case without a name belongs to all columns of its unit; a single column of a table to the only
- * one of its kind. */
+/* The column of the other table for column k of the run; -1: none. A reference of a case without a
+ * name applies to all columns of its unit; a single column of a table to the only one of its
+ * kind. */
 static int32_t partner_of(const pair *p, int32_t k)
 {
     const record *run = run_of(p), *other = other_of(p);
@@ -133,7 +133,7 @@ static void print_row(const char *name, const char *unit, const mps_comparison *
     printf("\n");
 }
 
-/* Where the two have only a part of their time together. */
+/* Print that the two have only a part of their time in common. */
 static void print_overlap(const pair *p, const mps_comparison *c, double begin, double end)
 {
     const double length = end - begin, common = c->t_last - c->t_first;
@@ -145,7 +145,7 @@ static void print_overlap(const pair *p, const mps_comparison *c, double begin, 
                c->t_first, c->t_last, 100 * common / length);
 }
 
-/* A column that every run has. */
+/* Add a column that every run has to the summary. */
 static void fold(pair *p, const char *name, const mps_comparison *c)
 {
     const double share = c->rms > 0 ? c->rms / c->rms_first : 0;
@@ -166,7 +166,7 @@ static void print_folded(const pair *p)
         printf("no difference\n");
 }
 
-/* A column as a series; `memory` is freed by the caller. @return false: no memory */
+/* A column as a series; the caller frees `memory`. @return false: memory is exhausted */
 static bool series_of(const record *r, int32_t k, double factor, mps_series *s, double **memory)
 {
     const int64_t n = mps_table_rows(r->table);
@@ -184,7 +184,7 @@ static bool series_of(const record *r, int32_t k, double factor, mps_series *s, 
     return true;
 }
 
-/* @return false: no memory */
+/* @return false: memory is exhausted */
 static bool compare_columns(pair *p, int32_t first, int32_t second)
 {
     mps_comparison c;
@@ -222,7 +222,7 @@ static bool compare_columns(pair *p, int32_t first, int32_t second)
     return status != MPS_E_NOMEM;
 }
 
-/* What there is to compare, for a user who has to map columns. */
+/* Print the comparable columns, for a user who has to map them. */
 static void print_columns(const record *r)
 {
     fprintf(stderr, "%s has", r->place);
@@ -232,7 +232,7 @@ static void print_columns(const record *r)
     fprintf(stderr, "\n");
 }
 
-/* All columns that belong together. @return exit code */
+/* Compare all matching columns. @return exit code */
 static int compare_two(pair *p)
 {
     const record *run = run_of(p);
@@ -261,7 +261,7 @@ static int compare_two(pair *p)
     return MPS_EXIT_USAGE;
 }
 
-/* A run against the known values of its case. @return exit code */
+/* Compare a run with the reference values of its case. @return exit code */
 static int compare_own(const choices *c, mps_stats_config *config, const record *run)
 {
     int code = MPS_EXIT_OK;
@@ -287,7 +287,7 @@ static int compare_own(const choices *c, mps_stats_config *config, const record 
     return MPS_EXIT_USAGE;
 }
 
-/* That of the first run that knows one [s]. */
+/* Period of the first run that has one [s]. */
 static double find_period(const choices *c, const mps_stats_config *config, const record *all)
 {
     double period = NAN;
@@ -299,7 +299,7 @@ static double find_period(const choices *c, const mps_stats_config *config, cons
     return period;
 }
 
-/* Each run against the first one and, where the last argument is a file, against this reference. */
+/* Compare each run with the first one and, if the last argument is a file, with this reference. */
 static int compare_all(const choices *c, mps_stats_config *config, const record *all)
 {
     config->period = find_period(c, config, all);

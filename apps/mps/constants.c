@@ -16,7 +16,7 @@ const char *quantity(double value, const char *unit)
 void print_quantity(int width, double value, const char *unit)
 {
     const char *text = quantity(value, unit);
-    int shown = 0; /* bytes that begin a character: a minus has three */
+    int shown = 0; /* number of characters: a minus has three bytes */
     for (const char *c = text; *c; c++) shown += ((unsigned char)*c & 0xC0) != 0x80;
     printf(" %*s%s", width > shown ? width - shown : 0, "", text);
 }
@@ -46,13 +46,13 @@ mps_status constants_read(constants *k, const choices *c, const char *folder)
     return status;
 }
 
-/* Values that differ, and values of which one is not known. */
+/* Whether the values differ, or only one of them is known. */
 static bool differ(double a, double b)
 {
     return isnan(a) || isnan(b) ? isnan(a) != isnan(b) : a != b;
 }
 
-/* Each constant that differs from `before`, in a line that begins with `where`. */
+/* Print each constant that differs from `before`, in a line that begins with `where`. */
 static void print_others(const mps_stats_config *now, const mps_stats_config *before,
                          const char *where)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps fmu: a case as an FMU, which programs with bodies import. */
+/* mps fmu: exports a case as an FMU, which programs with bodies import. */
 #include "fmu.h"
 #include "cli.h"
 #include "zip.h"
@@ -23,7 +23,8 @@ static int refuse(const choices *c, int code, const char *what, const char *why)
     return code;
 }
 
-/* The module, from the folder of the program, or from where it is installed beside that folder. NULL: there is none */
+/* Open the module in the folder of the program, or in its installed folder beside that one. NULL:
+ * not found */
 static FILE *open_module(char *path, size_t size)
 {
     static const char *const places[] = {"", MODULE_FOLDER};
@@ -40,11 +41,11 @@ static FILE *open_module(char *path, size_t size)
     return NULL;
 }
 
-/* All of a file, which is closed. @return false: errno says why, 0: there is nothing in it */
+/* Read a whole file, and close it. @return false: errno, 0: it is empty */
 static bool read_part(part *p, FILE *file)
 {
     errno = 0;
-    fseek(file, 0, SEEK_END); /* where that fails the place is 0, as in an empty file */
+    fseek(file, 0, SEEK_END); /* on failure the position is 0, as in an empty file */
     const long size = ftell(file);
     rewind(file);
     p->data = size > 0 ? malloc((size_t)size) : NULL;
@@ -81,24 +82,24 @@ static void say_nothing(void *user, int32_t kind, const char *text)
     (void)user, (void)kind, (void)text;
 }
 
-/* The case must run: its simulation is built. Its sensors are known then. */
+/* Build the simulation of the case to check that it runs. Its sensors are known then. */
 static bool open_model(const choices *c, mps_case *tank, fmu_model *m)
 {
     char error[ERROR_SIZE] = "";
     if (fmu_model_open(m, tank, c->quiet ? say_nothing : NULL, NULL, error, sizeof error))
         return true;
-    /* messages of the case end their lines, one of the system does not */
+    /* messages of the case end with a newline, one of the system does not */
     fprintf(stderr, "mps %s: %s%s", c->verb, error, strchr(error, '\n') ? "" : "\n");
     return false;
 }
 
 static void close_model(fmu_model *m)
 {
-    m->c = NULL; /* it is the caller's */
+    m->c = NULL; /* the caller owns it */
     fmu_model_close(m);
 }
 
-/* All files of the FMU, as a new file that then takes the place of `path`. */
+/* Write all files of the FMU to a temporary file, which then replaces `path`. */
 static bool write_fmu(const char *path, const fmu_about *a, const part *p, const char *text)
 {
     char name[PATH_SIZE], next[PATH_SIZE + 8];
@@ -121,7 +122,7 @@ static bool write_fmu(const char *path, const fmu_about *a, const part *p, const
     return false;
 }
 
-/* The case fails here, not in the importer: models without the load that importers ask for. */
+/* Detect failures here, not in the importer: models without the load that importers read. */
 static bool takes_step(const choices *c, mps_sim *sim)
 {
     if (mps_load_watch(sim, MPS_LOAD_MASS) >= 0 && mps_step(sim, 1, NULL) >= 0) return true;

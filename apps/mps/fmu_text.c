@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What an FMU says of itself: the description of its variables for importers, a page for people. */
+/* Descriptions in an FMU: variables for importers, a page for users. */
 #include "fmu.h"
 #include <mps/mps.h>
 #include <string.h>
 
-/* Units as powers of the SI's. In 2-D a load is per metre of width. */
+/* Units as powers of SI units. In 2-D a load is per metre of width. */
 static const struct {
     const char *name;
-    int dim, kg, m, s, rad; /* dim 0: in both */
+    int dim, kg, m, s, rad; /* dim 0: both */
 } units[] = {{"s", 0, 0, 0, 1, 0},       {"m", 0, 0, 1, 0, 0},      {"m/s", 0, 0, 1, -1, 0},
              {"m/s2", 0, 0, 1, -2, 0},   {"rad", 0, 0, 0, 0, 1},    {"rad/s", 0, 0, 0, -1, 1},
              {"rad/s2", 0, 0, 0, -2, 1}, {"N", 3, 1, 1, -2, 0},     {"N.m", 3, 1, 2, -2, 0},
@@ -33,7 +33,7 @@ static void put_power(FILE *out, const char *name, int power)
     if (power) fprintf(out, " %s=\"%d\"", name, power);
 }
 
-/* Whether a variable before number `index` has the unit of sensor v, or the table does. */
+/* Whether the unit of sensor v is in the table, or is that of a variable before number `index`. */
 static bool is_known(const fmu_about *a, int32_t index, const fmu_variable *v)
 {
     fmu_variable u;

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Harmonic fit of the loads of one run, from trace.csv.
- *
- * A load of a step and the acceleration of the tank in it belong to the same moment (couple.h), so both are fitted by the same functions of the
- * time, and their ratio has no error of phase. A wave that is left from the ramp oscillates at T1: it is fitted beside the forced one where the
- * record tells them apart. */
+/* Harmonic fit of the loads of one run, from trace.csv. The load of a step and the acceleration of
+ * the tank in it belong to the same instant (couple.h), so both are fitted by the same functions of
+ * time, and their ratio has no phase error. A wave that remains from the ramp oscillates at T1: it
+ * is fitted in addition to the forced one if the record is long enough to separate them. */
 #include "forced.h"
 #include <math.h>
 #include <mps/stats.h>
@@ -15,7 +14,7 @@ enum { TERMS = 5, ERROR_SIZE = 640, PERIODS_MOST = 1024 };
 
 const char *const forced_names[FORCED_DEGREES] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
 
-/* Beats of the free wave and the forced one in the record, below which they are one. */
+/* Number of beats of free and forced wave in the record below which they are inseparable. */
 static const double BEATS = 0.8;
 
 int32_t forced_degree(const char *name, size_t length)
@@ -28,8 +27,9 @@ int32_t forced_degree(const char *name, size_t length)
 
 /* ---- least squares ---- */
 
-/* Normal equations a x = b, [n] x [n] row by row; both are changed, b becomes x. They are positive definite, which needs no exchange of
- * rows. @return false: they are singular */
+/* Solve the normal equations a x = b, [n] x [n] row by row; both are overwritten, b becomes x. They
+ * are positive definite, so no pivoting is needed.
+ * @return false: singular */
 static bool solve(int n, double *a, double *b)
 {
     for (int k = 0; k < n; k++) {
@@ -47,7 +47,7 @@ static bool solve(int n, double *a, double *b)
     return true;
 }
 
-/* A run: its times, steps, and what is fitted to its columns. */
+/* A run: its times, steps, and the functions fitted to its columns. */
 typedef struct record_of {
     const mps_table *rows;
     int64_t n;
@@ -72,10 +72,10 @@ static void basis(const record_of *r, double t, double out[TERMS])
 
 static bool counts(const record_of *r, int64_t i)
 {
-    return r->t[i] > r->from; /* and until the last */
+    return r->t[i] > r->from; /* up to the last */
 }
 
-/* Coefficients of a column, each step with its duration as its weight. */
+/* Coefficients of a column; the weight of a step is its duration. */
 static bool fit(const record_of *r, const double *value, double x[TERMS])
 {
     const int n = terms_of(r);
@@ -94,7 +94,7 @@ static bool fit(const record_of *r, const double *value, double x[TERMS])
 
 /* ---- one load ---- */
 
-/* A number re + i im. */
+/* A complex number re + i im. */
 typedef struct phasor {
     double re, im;
 } phasor;
@@ -111,7 +111,7 @@ static phasor phasor_of(const double x[TERMS])
     return (phasor){x[1], -x[2]};
 }
 
-/* What is left of a load in each period, as part of the acceleration `a`. @return how many */
+/* Residual of a load in each period, relative to the acceleration `a`. @return number of periods */
 static int32_t find_rest(const record_of *r, const double *value, const double x[TERMS], phasor a,
                          phasor *rest)
 {
@@ -131,7 +131,7 @@ static int32_t find_rest(const record_of *r, const double *value, const double x
     return count;
 }
 
-/* Half of the band of the mean over the periods. */
+/* Half width of the confidence band of the mean over the periods. */
 static double band_of(int32_t count, const phasor *rest, bool imaginary)
 {
     double value[PERIODS_MOST];

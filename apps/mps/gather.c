@@ -63,7 +63,7 @@ static int by_name(const void *a, const void *b)
     return strcmp(((const gathered_run *)a)->folder, ((const gathered_run *)b)->folder);
 }
 
-/* A folder of a run, or the runs in its folders. @return exit code, -1: go on */
+/* Add a folder of a run, or the runs in its folders. @return exit code, -1: continue */
 static int add_folder(gathering *g, const char *folder)
 {
     char path[SERIES_PATH];
@@ -101,7 +101,7 @@ static const char *value_of(const gathered_run *r, const char *key)
     return NULL;
 }
 
-/* What follows from other inputs ("T1", "motion omega"), or does not change a result. */
+/* Whether the input follows from others ("T1", "motion omega"), or does not change a result. */
 static bool is_of_no_interest(const char *key)
 {
     static const char *const all[] = {"T1", "run.threads", "run.checkpoint_clock",
@@ -176,7 +176,7 @@ static double si_value(const gathered_run *r, const char *key, char unit[UNIT_SI
     return value;
 }
 
-/* Whether an input has numbers; the unit of the first. */
+/* Whether an input is numeric; the unit of the first. */
 static bool is_number(const gathering *g, const char *key, char unit[UNIT_SIZE])
 {
     double value;
@@ -219,7 +219,7 @@ static void write_run(const gathering *g, FILE *out, int32_t i, const mps_table 
     mps_table_destroy(rows);
 }
 
-/* `collect` of the case of a run. */
+/* Read `collect` of the case of a run. */
 static bool read_collect(gathering *g, const char *folder)
 {
     char path[SERIES_PATH + 16];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps info: what a file is, from its own bytes. */
+/* mps info: detects the type of a file from its contents, and describes it. */
 #include "cli.h"
 #include "info.h"
 #include "record.h"
@@ -23,7 +23,8 @@ bool is_text(const head *h)
 
 /* ---- kinds of files ---- */
 
-/* A checkpoint: 16 bytes of head, then parts with a title, bytes of an element, checksum, number of elements. */
+/* A checkpoint: a header of 16 bytes, then parts with title, bytes per element, checksum, number of
+ * elements. */
 enum { TITLE = 40, PART = TITLE + 16 };
 
 typedef struct part {
@@ -32,7 +33,8 @@ typedef struct part {
     int64_t elements;
 } part;
 
-/* The next part; the file is at its elements then. @return false: it is cut short, or damaged */
+/* Read the header of the next part; the file is then at its elements.
+ * @return false: it is truncated or damaged */
 static bool read_part(const head *h, part *p)
 {
     char text[PART];
@@ -49,7 +51,7 @@ static long long length_of(const part *p)
     return (p->elements * (long long)p->bytes + 7) / 8 * 8;
 }
 
-/* Elements of a part as a number, of 8 bytes. */
+/* A part as a number of 8 bytes. */
 static bool read_number(const head *h, const part *p, const char *title, void *out)
 {
     if (strcmp(p->title, title) != 0 || p->bytes != 8 || p->elements != 1) return false;
@@ -86,7 +88,7 @@ static bool tell_checkpoint(const head *h)
     return true;
 }
 
-/* The value of an XML attribute. */
+/* Find the value of an XML attribute. */
 static bool attribute(const char *text, const char *name, char *out, size_t size)
 {
     char key[48];
@@ -143,7 +145,7 @@ static bool tell_summary(const head *h)
     return true;
 }
 
-/* A table: names of the columns, rows, first and last value of the first column. */
+/* Describe a table: names of the columns, rows, first and last value of the first column. */
 static bool tell_table(const head *h)
 {
     char line[65536], last[64] = "", first[64] = "";
@@ -180,7 +182,7 @@ static int tell(head *h)
     return MPS_EXIT_USAGE;
 }
 
-/* The case of a run, and how far it is. */
+/* Print the case of a run, and its progress. */
 static void print_run(const char *path)
 {
     char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400];
@@ -195,7 +197,7 @@ static void print_run(const char *path)
                summary_number(path, "t_end"), summary_number(path, "steps"), path);
 }
 
-/* A folder of a run: what is in it to look at. */
+/* Describe the outputs in the folder of a run. */
 static int tell_folder(const char *path)
 {
     static const struct {

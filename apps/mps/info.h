@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a file is, from its own bytes. */
+/* Detects the type of a file from its contents. */
 #ifndef MPS_APPS_INFO_H
 #define MPS_APPS_INFO_H
 
@@ -7,7 +7,7 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { HEAD = 4096, TAIL = 4096 /* bytes that some programs write behind the triangles */ };
+enum { HEAD = 4096, TAIL = 4096 /* bytes that some programs append to the triangles */ };
 
 /* The beginning of a file. */
 typedef struct head {
@@ -18,9 +18,9 @@ typedef struct head {
     char text[HEAD + 1];
 } head;
 
-/* Whether the beginning holds text: no byte that only binary files have. */
+/* Whether the beginning is text: no byte that only binary files have. */
 bool is_text(const head *h);
-/* A surface of triangles (STL). @return false: it is something else */
+/* Describe a surface of triangles (STL). @return false: it is another type */
 bool info_surface(const head *h);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps info of a surface of triangles: where it is, and whether it is closed. */
+/* mps info for a surface of triangles: its position, and whether it is closed. */
 #include "info.h"
 #include <ctype.h>
 #include <math.h>
@@ -43,7 +43,7 @@ static void read_binary(FILE *file, uint32_t count, surface *s)
     }
 }
 
-/* A word up to the next blank. @return false: the file ends */
+/* A word up to the next blank. @return false: end of file */
 static bool next_word(FILE *file, char out[64])
 {
     int c, length = 0;
@@ -69,7 +69,7 @@ static void read_text(FILE *file, surface *s)
 
 /* ---- edges ---- */
 
-/* An edge between two corners, the smaller first. */
+/* An edge between two corners, the smaller index first. */
 typedef struct edge {
     float x[6];
 } edge;
@@ -82,7 +82,7 @@ static int by_place(const void *a, const void *b)
     return 0;
 }
 
-/* Edges that do not belong to two triangles; -1: no memory. */
+/* Number of edges that do not belong to exactly two triangles; -1: memory is exhausted. */
 static int64_t count_open(const surface *s)
 {
     edge *all = malloc((size_t)(s->corners > 0 ? s->corners : 1) * sizeof *all);
@@ -108,7 +108,7 @@ static int64_t count_open(const surface *s)
     return open;
 }
 
-/* By the divergence theorem; its sign tells where the normals point to. */
+/* By the divergence theorem; its sign is the direction of the normals. */
 static double volume_of(const surface *s)
 {
     double sum = 0;

@@ -8,7 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* A file that is there stays, unless it may be replaced. */
+/* Refuse to overwrite a file, unless that is requested. */
 static bool may_write(const choices *c, const char *path)
 {
     if (c->overwrite || access(path, F_OK) != 0) return true;
@@ -20,7 +20,7 @@ static int write_new(const char *path, const char *text)
 {
     FILE *file = fopen(path, "w");
     bool good = file != NULL;
-    if (file) { /* an error of a write stays until the end */
+    if (file) { /* a write error is kept until the end */
         fputs(text, file);
         good = !ferror(file);
         if (fclose(file) != 0) good = false;
@@ -33,7 +33,7 @@ static int write_new(const char *path, const char *text)
     return MPS_EXIT_OK;
 }
 
-/* A table that a case names. */
+/* Whether it is a table that a case names. */
 static bool is_table_of(const start *table, const start *owner)
 {
     return table != owner && strchr(table->name, '.') && strstr(owner->text, table->name);

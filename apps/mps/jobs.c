@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Processes that take the runs of a plan one by one. They are forked before this process has threads, and share a page of memory with it. */
-#define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
+/* Processes that take the runs of a plan one by one. They are forked before this process has
+ * threads, and share a memory mapping with it. */
+#define _DEFAULT_SOURCE /* for MAP_ANONYMOUS */
 #include "jobs.h"
 #include "summary.h"
 #include <errno.h>
@@ -23,20 +24,21 @@ enum { WAITING = -2, RUNNING = -3, PAUSE_MS = 50, SHOWN = 6 };
 /* [s] between lines of progress: on a terminal, in a log. */
 static const double EVERY_TERMINAL = 1, EVERY_LOG = 10;
 
-/* What the processes share; `state` of a run: WAITING, RUNNING, PLAN_OPEN, or its exit code. */
+/* Shared memory of the processes; `state` of a run: WAITING, RUNNING, PLAN_OPEN, or its exit
+ * code. */
 typedef struct board {
     _Atomic int64_t next;
     _Atomic int64_t refused;
-    _Atomic int stop; /* no other run begins */
+    _Atomic int stop; /* no other run starts */
     _Atomic int state[];
 } board;
 
-/* What this process does. */
+/* The processes, and the task of this one. */
 typedef struct crew {
     plan *p;
     board *b;
     int64_t first, step, count;
-    size_t size; /* of the board [bytes] */
+    size_t size; /* of the shared memory [bytes] */
     int32_t jobs;
     pid_t *pid;
     double begin, shown;
@@ -76,7 +78,7 @@ static void catch_all(void (*handler)(int))
             sigaction(caught[k], &action, NULL);
 }
 
-/* Next run; -1: there is none. */
+/* Next run; -1: none. */
 static int64_t next_of(crew *w)
 {
     const int64_t k = atomic_fetch_add(&w->b->next, 1);
@@ -100,7 +102,7 @@ static void check_runs(crew *w)
         atomic_fetch_add(&w->b->refused, plan_check(w->p, w->first + k * w->step, w->p->runs) > 0);
 }
 
-/* ---- all of them ---- */
+/* ---- all processes ---- */
 
 static bool begin(crew *w, plan *p, int64_t first, int64_t step)
 {
@@ -124,7 +126,7 @@ static void end(crew *w)
     free(w->pid);
 }
 
-/* @return false: a process cannot be made; those that are there do all runs */
+/* @return false: a process cannot be created; the existing ones do all runs */
 static bool start(crew *w, void (*work)(crew *w))
 {
     fflush(NULL);
@@ -137,7 +139,7 @@ static bool start(crew *w, void (*work)(crew *w))
         }
         if (w->pid[k] > 0) continue;
 #ifdef __linux__
-        prctl(PR_SET_PDEATHSIG, SIGTERM); /* where this process is killed, the runs stop too */
+        prctl(PR_SET_PDEATHSIG, SIGTERM); /* if this process is killed, the runs stop too */
 #endif
         if (getppid() == parent) work(w);
         fflush(NULL);
@@ -146,7 +148,7 @@ static bool start(crew *w, void (*work)(crew *w))
     return true;
 }
 
-/* Number of processes that have not ended. */
+/* Number of running processes. */
 static int32_t count_alive(crew *w)
 {
     int32_t alive = 0;
@@ -165,7 +167,7 @@ static void send(const crew *w, int number)
 
 /* ---- progress ---- */
 
-/* Share of a run that is done, by its summary, which is written every 10 s. */
+/* Completed fraction of a run, by its summary, which is written every 10 s. */
 static double share_of(const crew *w, int64_t k)
 {
     char folder[SERIES_PATH];
@@ -210,7 +212,8 @@ static void show_progress(crew *w, bool terminal)
     fprintf(stderr, terminal ? "\r%s\033[K" : "%s\n", line);
 }
 
-/* Wait for all processes. A signal ends the runs with their checkpoints; a second one at once. */
+/* Wait for all processes. A signal ends the runs with their checkpoints; a second one ends them
+ * immediately. */
 static void wait_all(crew *w, bool shows)
 {
     const struct timespec pause = {.tv_nsec = PAUSE_MS * 1000000L};
@@ -243,8 +246,8 @@ int64_t jobs_check(const plan *p, int64_t first, int64_t step)
     if (begin(&w, &all, first, step) && start(&w, check_runs)) {
         wait_all(&w, false);
         refused = atomic_load(&w.b->refused);
-        if (atomic_load(&w.b->next) < w.count)
-            refused++; /* a process ended before all were checked */
+        /* a process ended before all runs were checked */
+        if (atomic_load(&w.b->next) < w.count) refused++;
     }
     end(&w);
     return refused;
@@ -261,7 +264,7 @@ int jobs_run(plan *p, int64_t first, int64_t step)
         code = atomic_load(&w.b->stop);
         for (int64_t k = 0; k < w.count; k++) {
             const int state = atomic_load(&w.b->state[k]);
-            /* a process that was killed leaves its run as it is */
+            /* the run of a killed process is left unchanged */
             p->code[first + k * step] = state == RUNNING   ? MPS_EXIT_FAILED
                                         : state == WAITING ? PLAN_OPEN
                                                            : state;

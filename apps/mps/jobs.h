@@ -8,16 +8,19 @@
 /* plan->fits refused a run. */
 enum { PLAN_REFUSED = 1000 };
 
-/* One run of a plan in this process. @param quiet  failures and one line when it is done @return exit code, PLAN_OPEN, PLAN_REFUSED */
+/* Run one run of a plan in this process.
+ * @param quiet  print failures and one line at its end
+ * @return exit code, PLAN_OPEN, PLAN_REFUSED */
 int plan_take(const plan *p, int64_t index, bool quiet);
-/* Check runs `first`, `first + step` .. @return number of runs that are refused, each with its messages */
+/* Check runs `first`, `first + step` .. @return number of refused runs, each with its messages */
 int64_t plan_check(const plan *p, int64_t first, int64_t step);
 
-/* The same by c->jobs processes. */
+/* plan_check() by c->jobs processes. */
 int64_t jobs_check(const plan *p, int64_t first, int64_t step);
-/* All runs `first`, `first + step` .. by c->jobs processes; plan->code is filled in. @return MPS_EXIT_OK, MPS_EXIT_INTERRUPTED, PLAN_REFUSED */
+/* Run all runs `first`, `first + step` .. by c->jobs processes; sets plan->code.
+ * @return MPS_EXIT_OK, MPS_EXIT_INTERRUPTED, PLAN_REFUSED */
 int jobs_run(plan *p, int64_t first, int64_t step);
-/* Processors of this machine. */
+/* Number of processors of this machine. */
 int32_t jobs_processors(void);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps list: what the library and the language of cases have. */
+/* mps list: contents of the library and of the language of cases. */
 #include "cli.h"
 #include "starts.h"
 #include <dirent.h>
@@ -20,7 +20,7 @@ static mps_sim *make_sim(void)
     return sim;
 }
 
-/* The second comment line or the title of a case tells what it is. */
+/* The second comment line or the title of a case describes it. */
 void cli_list_cases(FILE *out)
 {
     for (const start *s = starts; s->name; s++) {
@@ -31,7 +31,8 @@ void cli_list_cases(FILE *out)
     }
 }
 
-/* Whether a name is an element of a path, or a text is its beginning: "holes", "solids", "motion.roll". */
+/* Whether a name is an element of a path, or a text is its beginning: "holes", "solids",
+ * "motion.roll". */
 static bool is_on_path(const char *path, const char *name)
 {
     const size_t length = strlen(name);
@@ -41,7 +42,7 @@ static bool is_on_path(const char *path, const char *name)
     return false;
 }
 
-/* Whether a text has a word, or a part of one, in small or large letters. */
+/* Whether a text contains a word or a part of one, in lower or upper case. */
 static bool has_word(const char *text, const char *word)
 {
     const size_t length = strlen(word);
@@ -60,7 +61,8 @@ static void print_key(const mps_case_key *k)
     printf("\n");
 }
 
-/* All keys; or those of one name, then those whose text or example has it. @return exit code */
+/* List all keys; or those of one name, then those whose text or example contains it.
+ * @return exit code */
 static int list_keys(const char *name)
 {
     mps_case_key k = {.struct_size = sizeof k};
@@ -81,7 +83,7 @@ static int list_keys(const char *name)
     return MPS_EXIT_USAGE;
 }
 
-/* Each kind of quantity once, with its units. */
+/* List each kind of quantity once, with its units. */
 static void list_units(void)
 {
     mps_case_key k = {.struct_size = sizeof k}, earlier = {.struct_size = sizeof earlier};
@@ -149,7 +151,7 @@ static void list_measures(void)
 
 enum { WHY_SIZE = 640 };
 
-/* The plug-ins of the line, registered on a simulation where one is given. */
+/* Load the plug-ins of the command line, and register them on a simulation if there is one. */
 static int load_plugins(const choices *c, mps_sim *sim, mps_plugin_file **loaded)
 {
     char why[WHY_SIZE];
@@ -188,7 +190,8 @@ static void list_plugin(const mps_plugin_file *plugin)
     }
 }
 
-/* Those of the folders of MPS_PLUGIN_PATH. A file that is no plug-in is named with the reason. */
+/* List plug-ins in the folders of MPS_PLUGIN_PATH. A file that is no plug-in is listed with the
+ * reason. */
 static void list_path(void)
 {
     const char *at = getenv("MPS_PLUGIN_PATH");

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps: tanks, liquids and motions from case files. */
+/* mps: simulates tanks, liquids and motions from case files. */
 #include "cli.h"
 #include "record.h"
 #include <fcntl.h>
@@ -17,7 +17,8 @@ static void print_all(FILE *out)
     fprintf(out, "\n'mps VERB --help' explains a verb. 'mps --version' prints the version.\n");
 }
 
-/* Where a host starts a program without standard streams, the first files would take their numbers, and messages would land in them. */
+/* If the parent process closed the standard streams, the first opened files would have their
+ * numbers, and messages would be written into them. */
 static void fill_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
@@ -32,7 +33,7 @@ static const verb *find_verb(const char *name)
     return NULL;
 }
 
-/* A verb that differs by one or two letters is proposed; without one all are listed. */
+/* Propose a verb that differs by one or two letters; otherwise list all. */
 static void refuse_verb(const char *name)
 {
     const char *best = NULL;
@@ -55,7 +56,7 @@ int main(int argc, char **argv)
 {
     static choices c;
     fill_streams();
-    signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
+    signal(SIGPIPE, SIG_IGN); /* a closed reader of stderr does not end the run */
     c.verb = argc < 2 ? "" : argv[1];
     if (argc < 2 || strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "help") == 0) {
         print_all(argc < 2 ? stderr : stdout);
@@ -76,7 +77,6 @@ int main(int argc, char **argv)
     if (code >= 0) return cli_flush(&c, code);
     code = cli_agree(&c, cli_read(&c, v, argc, argv));
     if (code < 0 && (v->options & HAS_THREADS)) code = cli_check_alone(&c);
-    return cli_flush(
-        &c,
-        code >= 0 ? code : v->run(&c)); /* of all verbs: a text that is not written is a failure */
+    /* for all verbs: unwritten output is a failure */
+    return cli_flush(&c, code >= 0 ? code : v->run(&c));
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of a series. Each has a folder with a lock: processes of one or several machines that share the folders take turns by it. */
+/* Runs of a series. Each has a folder with a lock, by which processes of one or several machines
+ * that share the folders divide the runs. */
 #include "plan.h"
 #include "jobs.h"
 #include "summary.h"
@@ -11,7 +12,7 @@
 
 /* ---- the part of this process ---- */
 
-/* "I/N" of --part. @return false: it is something else */
+/* Parse "I/N" of --part. @return false: another text */
 static bool read_part(const choices *c, int64_t *first, int64_t *of)
 {
     char *end;
@@ -85,7 +86,7 @@ int plan_take(const plan *p, int64_t index, bool quiet)
 
 /* ---- checks before the first run ---- */
 
-/* Whether a run can be built. One that is done is. */
+/* Whether a run can be built. A finished one can. */
 static bool check_run(const plan *p, int64_t index)
 {
     char folder[SERIES_PATH];
@@ -112,7 +113,7 @@ int64_t plan_check(const plan *p, int64_t first, int64_t step)
 
 /* ---- all ---- */
 
-/* The runs one after the other. Those that another process has are looked at again behind the others. */
+/* Do the runs one after the other. Those locked by another process are checked again at the end. */
 static int run_alone(plan *p, const part *own)
 {
     for (int pass = 0; pass < 2; pass++)
@@ -126,7 +127,7 @@ static int run_alone(plan *p, const part *own)
     return MPS_EXIT_OK;
 }
 
-/* Runs of other processes, as they are now. */
+/* Update the states of runs of other processes. */
 static void look_at_others(plan *p)
 {
     char folder[SERIES_PATH];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One run of many processes: they begin, refuse and end together, and each message is shown once. */
+/* One run of many processes: they start, refuse and end together, and each message is shown
+ * once. */
 #include "cli.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -7,7 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* What ranks combine: the exit code + 1 of those that fail, and of these the lowest has the largest number. */
+/* What ranks reduce: the exit code + 1 of failed ranks; the lowest of these has the largest
+ * TELLS. */
 enum { FAILS, TELLS, VALUES };
 
 void cli_say(const choices *c, const char *format, ...)
@@ -47,7 +49,7 @@ int cli_begin(choices *c, int argc, char **argv)
     return -1;
 }
 
-/* A number that mpirun of Open MPI, or of MPICH and others, gives to each process. */
+/* A number that mpirun of Open MPI, or of MPICH and others, sets for each process. */
 static int started_with(const char *openmpi, const char *pmi)
 {
     const char *text = getenv(openmpi);
@@ -65,7 +67,7 @@ int cli_check_alone(const choices *c)
                 "one run of them; without it start one process\n",
                 c->verb, count);
     else
-        sleep(1); /* mpirun ends all processes with the first one that exits so */
+        sleep(1); /* mpirun ends all processes when the first one exits with a failure */
     return MPS_EXIT_USAGE;
 }
 

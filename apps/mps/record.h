@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a run has left in its folder: columns of probes.csv. */
+/* Columns of probes.csv in the folder of a run. */
 #ifndef MPS_APPS_RECORD_H
 #define MPS_APPS_RECORD_H
 
@@ -14,19 +14,19 @@ typedef struct record {
     mps_table *table;
 } record;
 
-/* "folder/name" into out. @return false: it has no room */
+/* Write "folder/name" to out. @return false: the buffer is too small */
 bool record_path(const char *folder, const char *name, char *out, size_t size);
-/* Read probes.csv of a folder, or a CSV file. A failure is a text in config->error. */
+/* Read probes.csv of a folder, or a CSV file. The text of a failure is in config->error. */
 mps_status record_read(const mps_stats_config *config, const char *place, record *r);
 void record_free(record *r);
-/* Known values of the case of a run. MPS_E_NAME without a text: there are no more. */
+/* Reference values of the case of a run. MPS_E_NAME without a text: there are no more. */
 mps_status record_read_reference(const mps_stats_config *config, const char *folder, int32_t index,
                                  record *r);
-/* A column by its name; -1: there is none. */
+/* A column by its name; -1: none. */
 int32_t record_find(const record *r, const char *name);
 /* The column with the most similar name, "" without columns. */
 const char *record_nearest(const record *r, const char *name);
-/* Letters to add, to drop or to replace, so that one word becomes the other; of their first 64 letters. */
+/* Edit distance of two words: letters to insert, remove or replace; of their first 64 letters. */
 size_t record_distance(const char *a, const char *b);
 /* Last time of probes.csv in a folder, NAN without rows. */
 double record_last(const char *folder);

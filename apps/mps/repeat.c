@@ -9,8 +9,9 @@
 
 enum { REPEAT_MOST = 100, REPEAT_COUNT = 5, SPACINGS = 3, CELL = 12, PATH_SIZE = SERIES_PATH + 32 };
 
-/* Runs of one case are the same to the last byte. dp and the time steps within this share give others of the same flow: the steps in all
- * tanks, also where a whole number of cells leaves one dp, and with each motion, also without one. */
+/* Runs of one case are bitwise equal. Variations of dp and of the time steps within this fraction
+ * give other realisations of the flow: the steps vary in all tanks (where a whole number of cells
+ * fixes dp, too), with and without motion. */
 static const double SPREAD = 0.005;
 
 /* Rows of the first run that has some. */
@@ -54,7 +55,8 @@ static void print_repeat(int32_t count, mps_table *const *rows)
     }
 }
 
-/* repeat.csv: a row for each column that has values, behind the spacings as built and the factors of the time step. A run that failed has nan. */
+/* Write repeat.csv: a row for each column that has values, after the spacings as built and the
+ * factors of the time step. A failed run has nan. */
 static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const double *dp,
                          const double *factor)
 {
@@ -77,7 +79,7 @@ static void write_repeat(FILE *out, int32_t count, mps_table *const *rows, const
     }
 }
 
-/* Close a table of the verb. @return exit code: `code`, or that of a file that is not written */
+/* Close a table of the verb. @return exit code: `code`, or that of a failed write */
 static int close_table(const choices *c, FILE *out, const char *path, int code)
 {
     bool good = out && !ferror(out);
@@ -88,7 +90,7 @@ static int close_table(const choices *c, FILE *out, const char *path, int code)
     return code == MPS_EXIT_OK ? MPS_EXIT_FAILED : code;
 }
 
-/* "DIR/repeat.csv" */
+/* Open "DIR/repeat.csv". */
 static FILE *open_table(const choices *c, char path[PATH_SIZE])
 {
     char place[SERIES_PATH];
@@ -106,7 +108,8 @@ static int save_repeat(const choices *c, int32_t count, mps_table *const *rows, 
     return close_table(c, out, path, code);
 }
 
-/* Say what the runs differ by: a tank that is filled with whole spacings gives the same dp for several that were asked for. */
+/* Print how the runs differ: a tank that is filled with whole spacings has the same dp for several
+ * requested values. */
 static void say_varied(int32_t count, mps_table *const *rows, const double *dp)
 {
     double least = INFINITY, most = 0;
@@ -151,7 +154,8 @@ int verb_repeat(const choices *c)
 
 static const char *const KIND[] = {"monotone", "slow", "oscillating", "same"};
 
-/* Runs are from coarse to fine, spacings of the library from fine to coarse. @return false: a run has no value */
+/* Runs are sorted from coarse to fine, spacings of the library from fine to coarse.
+ * @return false: a run has no value */
 static bool find_order(mps_table *const *rows, const double *dp, int32_t column,
                        double value[SPACINGS], mps_convergence *r)
 {
@@ -181,7 +185,7 @@ static void print_converge(mps_table *const *rows, const double *dp)
     }
 }
 
-/* converge.csv: a row for each column, behind the spacings as built. */
+/* Write converge.csv: a row for each column, after the spacings as built. */
 static int save_converge(const choices *c, mps_table *const *rows, const double *dp)
 {
     char path[PATH_SIZE];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps report: report.html of a folder, made again. */
+/* mps report: writes report.html of a folder again. */
 #include "constants.h"
 #include "record.h"
 #include "summary.h"

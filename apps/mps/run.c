@@ -9,7 +9,7 @@
 
 enum { ERROR_SIZE = 1024, PATH_SIZE = 1024 };
 
-/* Exit code of a failure to begin. */
+/* Exit code of a failure to start. */
 static int code_of(mps_status status)
 {
     const bool refused = status == MPS_E_ARG || status == MPS_E_STATE || status == MPS_E_BUSY ||
@@ -98,7 +98,7 @@ int verb_resume(const choices *c)
     config.error = error;
     config.error_size = sizeof error;
     config.resume = 1;
-    /* as the run began with it: the name of its file is "case" */
+    /* with the original name of the case: its file is named "case" */
     if (summary_text(c->file[0], "case", name)) config.name = name;
     snprintf(path, sizeof path, "%s/case.yaml", c->file[0]);
     all.file[0] = path;

@@ -36,7 +36,7 @@ static bool is_there(const char *folder, const char *name)
     return file != NULL;
 }
 
-/* Next line of a text, without the threads: results do not depend on them. */
+/* Next line of a text except the threads: results do not depend on them. */
 static const char *next_line(const char *text, size_t *length)
 {
     static const char threads[] = "  threads: ";
@@ -81,7 +81,8 @@ static int refuse_other(const choices *c, const char *folder)
     return MPS_EXIT_USAGE;
 }
 
-/* With several processes, so many threads that all processors have work; results do not depend on them. */
+/* With several processes, as many threads each as use all processors; results do not depend on
+ * them. */
 static void share_processors(choices *one, const mps_case *tank)
 {
     static const char threads[] = "\n  threads: ";
@@ -112,7 +113,7 @@ int series_run(const choices *c, const char *folder, bool *busy)
     }
     config.resume = same;
     const int code = cli_run(&one, &config, folder, busy);
-    /* another process ended it after it was looked at here */
+    /* another process finished it after the check above */
     return code == MPS_EXIT_USAGE && same && summary_is_done(folder) ? MPS_EXIT_OK : code;
 }
 
@@ -176,7 +177,7 @@ static int read_dp(const choices *c, double *dp, char unit[SERIES_DP])
     return MPS_EXIT_OK;
 }
 
-/* Runs that differ by their spacing. */
+/* Runs that differ in their spacing. */
 typedef struct spacings {
     const double *factor;
     double given;

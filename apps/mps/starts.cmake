@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Write the files of FILES (separated by |) into the C table OUTPUT, a line of text to a line of the file.
+# Write the files of FILES (separated by |) into the C table OUTPUT, one string per line of a file.
 string(REPLACE "|" ";" files "${FILES}")
 set(text "/* Made by apps/mps/starts.cmake. */\n#include \"starts.h\"\n#include <stddef.h>\n\nconst start starts[] = {\n")
 foreach(path ${files})

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cases that the program carries. The table is made by CMake from cases/ and apps/mps/init. */
+/* Cases built into the program. CMake generates the table from cases/ and apps/mps/init. */
 #ifndef MPS_APPS_STARTS_H
 #define MPS_APPS_STARTS_H
 
@@ -7,6 +7,6 @@ typedef struct start {
     const char *name, *text; /* "surge", the whole file */
 } start;
 
-extern const start starts[]; /* ends with a NULL */
+extern const start starts[]; /* NULL-terminated */
 
 #endif

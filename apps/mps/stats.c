@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps stats: impacts of the pressures of a run. */
+/* mps stats: impacts in the pressures of a run. */
 #include "cli.h"
 #include "constants.h"
 #include "record.h"
@@ -24,7 +24,7 @@ typedef struct signals {
 
 /* ---- columns ---- */
 
-/* The columns that the line names. @return exit code */
+/* Select the columns of the command line. @return exit code */
 static int take_named(const choices *c, const record *r, signals *s)
 {
     for (int32_t k = 1; k < c->files; k++) {
@@ -44,7 +44,7 @@ static int take_named(const choices *c, const record *r, signals *s)
     return MPS_EXIT_OK;
 }
 
-/* All pressures, or those that the case names. @return exit code */
+/* Select all pressures, or those that the case names. @return exit code */
 static int take_pressures(const mps_stats_config *config, const record *r, signals *s)
 {
     for (int32_t k = 0; k < mps_table_columns(r->table); k++)
@@ -102,14 +102,14 @@ static void print_highest(const mps_impacts *impacts)
     }
 }
 
-/* The run is a model of a larger tank, or of another liquid. */
+/* Whether the run is a model of a larger tank, or of another liquid. */
 static bool is_scaled(const mps_impacts_info *info)
 {
     return info->pressure_scale != 1 || info->time_scale != 1;
 }
 
-/* "3.59 kPa", or "3.59 kPa in the model (144 kPa at full scale)"; valid until the second call
- * from now. */
+/* "3.59 kPa", or "3.59 kPa in the model (144 kPa at full scale)"; valid until the second next
+ * call. */
 static const char *both(double value, const mps_impacts_info *info)
 {
     static char text[2][96];
@@ -133,7 +133,7 @@ static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name
     printf("\n");
 }
 
-/* The end of a record with as many events as a fit needs, at this rate, with two digits. */
+/* End of a record that has as many events as a fit needs, at this rate, with two digits. */
 static double wanted_end(const mps_impacts_info *info, const mps_stats_config *c)
 {
     const double end = info->t_first + c->least_events / info->rate,
@@ -220,7 +220,7 @@ static size_t write_text(const signals *s, bool json, char *buffer, size_t size)
                 : mps_stats_csv_write(s->count, s->name, impacts, buffer, size);
 }
 
-/* One of statistics.json and statistics.csv. @return exit code */
+/* Write statistics.json or statistics.csv. @return exit code */
 static int write_file(const char *folder, const char *name, const signals *s, bool json)
 {
     char path[PATH_ROOM];
@@ -233,7 +233,7 @@ static int write_file(const char *folder, const char *name, const signals *s, bo
     }
     FILE *file = NULL;
     if (record_path(folder, name, path, sizeof path)) {
-        remove(path); /* where it is a link, the file behind it stays as it is */
+        remove(path); /* a link is removed, its target stays unchanged */
         file = fopen(path, "wbx");
     } else {
         errno = ENAMETOOLONG;

@@ -8,7 +8,7 @@
 
 enum { PATH_SIZE = 4096, LINE_SIZE = 4096 };
 
-/* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end of the line. */
+/* The rest of a line that begins with `wanted` after at most `most` blanks. */
 static bool find_text(const char *folder, const char *wanted, int most, char out[LINE_SIZE])
 {
     char path[PATH_SIZE], line[LINE_SIZE];
@@ -40,7 +40,8 @@ double summary_T1(const char *folder)
     return end > line ? value : NAN;
 }
 
-/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not end */
+/* Unquote a JSON string after its opening quote.
+ * @return the text after its closing quote; NULL: unterminated */
 static const char *unquote(const char *from, char out[SUMMARY_TEXT])
 {
     size_t used = 0;

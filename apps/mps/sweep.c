@@ -15,13 +15,13 @@ typedef struct sweep {
     mps_case *tank;
     collect collect;
     int32_t paths;
-    bool known; /* a run has the columns that are collected */
+    bool known; /* a run has the collected columns */
     char set[CLI_SETS][SERIES_VALUE];
 } sweep;
 
 /* ---- the table ---- */
 
-/* Rows of run number `index`, NULL where it has none. */
+/* Rows of run number `index`, NULL: none. */
 static mps_table *rows_of(const sweep *s, int64_t index)
 {
     char folder[SERIES_PATH];
@@ -29,7 +29,7 @@ static mps_table *rows_of(const sweep *s, int64_t index)
     return series_table(s->p.c, folder);
 }
 
-/* Value `k` of a run in SI, "" where it is a word; dp and T1 are those of the run. @return nan: it is no number, or not known */
+/* Value `k` of a run in SI, with dp and T1 of the run. @return nan: a word, or not known */
 static double si_value(const sweep *s, int64_t index, int32_t k, char unit[UNIT_SIZE])
 {
     char set[SERIES_VALUE], folder[SERIES_PATH];
@@ -47,7 +47,7 @@ static double si_value(const sweep *s, int64_t index, int32_t k, char unit[UNIT_
     return value;
 }
 
-/* "motion.surge.period.si[s]" beside the texts of a value that is a number. */
+/* Whether a value is numeric and has a column "motion.surge.period.si[s]" beside its texts. */
 static bool is_number(const sweep *s, int32_t k, char unit[UNIT_SIZE])
 {
     char set[SERIES_VALUE];
@@ -126,7 +126,7 @@ static bool set_values(void *user, int64_t index, choices *one)
     return true;
 }
 
-/* What is collected is there, in the first run that is done. */
+/* Check the collected columns in the first finished run. */
 static bool fits(void *user, int64_t index)
 {
     sweep *s = user;

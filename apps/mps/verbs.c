@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of verbs: what `mps --help`, the manual page and the completion of a shell know. */
+/* The table of verbs: source of `mps --help`, the manual page and the shell completion. */
 #include "cli.h"
 #include <stddef.h>
 
@@ -90,7 +90,7 @@ static const char COEFFICIENTS_TEXT[] =
     "for seakeeping programs: period [s], i, j, A_ij, B_ij; load i by motion j, 1 surge to 6 yaw.\n"
     "Exit: 0 all are done, else the largest exit code of the runs.\n";
 
-/* Of verbs that build a case. */
+/* Options of verbs that build a case. */
 enum { HAS_CASE = HAS_SET | HAS_PLUGIN | HAS_TRUST };
 
 static const char COLLECT_TEXT[] =

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The format of zip files: each file behind a head of its own, then a list of all of them, then the place of this list. */
+/* The zip format: each file after a local header, then a central directory, then the offset of this
+ * directory. */
 #include "zip.h"
 #include <stdlib.h>
 #include <string.h>
@@ -14,7 +15,7 @@ enum {
     UTF8 = 1 << 11,
     DEFLATED = 8,
     MIDNIGHT_1980 = 0x21, /* date and time of all files: 1 January 1980 */
-    RAW = -15             /* window of deflate without a head */
+    RAW = -15             /* window of deflate without a header */
 };
 
 static void put(zip *z, unsigned long value, int bytes)
@@ -28,7 +29,7 @@ static void put_bytes(zip *z, const void *data, size_t size)
     if (fwrite(data, 1, size, z->file) != size) z->failed = true;
 }
 
-/* What both heads of a file have. */
+/* Common fields of both headers of a file. */
 static void put_common(zip *z, const struct zip_entry *e)
 {
     put(z, VERSION, 2);
@@ -40,10 +41,10 @@ static void put_common(zip *z, const struct zip_entry *e)
     put(z, e->packed, 4);
     put(z, e->size, 4);
     put(z, strlen(e->name), 2);
-    put(z, 0, 2); /* further values: none */
+    put(z, 0, 2); /* extra fields: none */
 }
 
-/* @return NULL: no memory */
+/* @return NULL: memory is exhausted */
 static unsigned char *pack(const void *data, size_t size, unsigned long *packed)
 {
     z_stream s = {.next_in = (Bytef *)data, .avail_in = (uInt)size};
@@ -95,8 +96,8 @@ void zip_end(zip *z)
         put_common(z, e);
         put(z, 0, 2);               /* comment: none */
         put(z, 0, 2);               /* disk */
-        put(z, 0, 2);               /* no text */
-        put(z, 0100644ul << 16, 4); /* a file that all may read */
+        put(z, 0, 2);               /* internal attributes: no text */
+        put(z, 0100644ul << 16, 4); /* mode: a regular file, readable by all */
         put(z, e->at, 4);
         put_bytes(z, e->name, strlen(e->name));
     }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Archives as an FMU is one: deflated files, no folders of their own, no dates; less than 4 GB. The same files give the same bytes. */
+/* Writes zip archives as FMUs need them: deflated files, no folders of their own, no dates; less
+ * than 4 GB. The same files give the same bytes. */
 #ifndef MPS_APPS_ZIP_H
 #define MPS_APPS_ZIP_H
 
@@ -11,7 +12,7 @@ enum { ZIP_FILES = 16 };
 
 typedef struct zip {
     FILE *file;
-    bool failed; /* a write, or memory was out */
+    bool failed; /* a write failed, or memory is exhausted */
     int count;
     struct zip_entry {
         char name[160];
@@ -20,7 +21,7 @@ typedef struct zip {
 } zip;
 
 void zip_add(zip *z, const char *name, const void *data, size_t size);
-/* The list of all files. */
+/* Write the central directory. */
 void zip_end(zip *z);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tank of an importer: its life, its values, its steps. */
+/* A tank of an importer: creation, values, steps. */
 #include "adapter.h"
 #include <math.h>
 #include <stdarg.h>
@@ -26,14 +26,14 @@ fmu_status fmu_refused(fmu *f, fmu_status status, const char *call)
     return fmu_tell(f, status, "%s: %s", call, mps_sim_error(f->model.sim));
 }
 
-/* What the library logs. */
+/* Forwards log messages of the library. */
 static void say_log(void *user, int32_t kind, const char *text)
 {
     const fmu *f = user;
     if (f->chatty && kind == MPS_JOB_MESSAGE) fmu_tell(f, FMU_OK, "%s", text);
 }
 
-/* ---- life ---- */
+/* ---- creation and release ---- */
 
 static int still(void *user, double t, mps_motion_state *state)
 {
@@ -219,12 +219,11 @@ fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *valu
 
 /* ---- steps ---- */
 
-/* Sums over the steps of the library within one of the importer, each times its length. */
+/* Sums over the steps of the library in one step of the importer, each weighted by its length. */
 typedef struct sums {
     double length, load[MPS_DOF_COUNT], rest[MPS_DOF_COUNT], mass[MPS_DOF_COUNT * MPS_DOF_COUNT];
-    const double
-        *kept; /* the added mass before, for steps whose own is not known; NULL: there is none */
-    int32_t without; /* such steps */
+    const double *kept; /* the previous added mass, for steps without their own; NULL: none */
+    int32_t without;    /* number of such steps */
     mps_status failed;
 } sums;
 
@@ -252,7 +251,7 @@ static int add_step(void *user, mps_sim *sim, const mps_step_info *info)
     return 0;
 }
 
-/* A mean over one step has the bytes of its value. */
+/* A mean over one step is bitwise equal to its value. */
 static double mean(double sum, double first, bool one)
 {
     return one ? first : sum;
@@ -273,7 +272,7 @@ static void take_means(fmu *f, const sums *s)
     f->v.has_mass = s->without == 0 || s->kept;
 }
 
-/* Rounding of times, as in mps_run(): a step that is no longer is none. */
+/* Rounding tolerance of times, as in mps_run(): a step not longer than it is none. */
 static double rounding_of(double t)
 {
     return 1e-12 * fmax(1, fabs(t));
@@ -329,8 +328,8 @@ fmu_status fmu_step(fmu *f, double time, double length)
 
 /* ---- derivatives ---- */
 
-/* dF_i/d(second derivative of degree k) = -sum_m A_im T_mk. Angles are turned about y, then z, then x: T has the axis of
- * each angle in its column. */
+/* dF_i/d(second derivative of degree of freedom k) = -sum_m A_im T_mk. Angles rotate about y, then
+ * z, then x: column k of T is the axis of angle k. */
 static double slope(const fmu *f, int32_t i, int32_t k)
 {
     const double *a = &f->v.mass[i * MPS_DOF_COUNT], *q = f->v.input[0];

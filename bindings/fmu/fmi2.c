@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* FMI 2.0, co-simulation: the names and types of the standard over the adapter. Names of functions are those of the standard. */
+/* FMI 2.0, co-simulation: maps names and types of the standard to the adapter. Names of functions
+ * are those of the standard. */
 #include "fmi2.h"
 #include "adapter.h"
 #include <stdio.h>
@@ -36,7 +37,7 @@ MPS_API fmi2_status_get fmi2GetStatus;
 MPS_API fmi2_real_status_get fmi2GetRealStatus;
 MPS_API fmi2_flag_status_get fmi2GetBooleanStatus;
 
-/* What a call cannot do without: an importer that gives NULL gets an error. */
+/* Required arguments: an importer that passes NULL gets an error. */
 #define NEEDS(what)                    \
     do {                               \
         if (!(what)) return FMU_ERROR; \
@@ -85,7 +86,7 @@ static void path_of(const char *uri, char *path, size_t size)
     const char *at = uri;
     const bool is_uri = strncmp(uri, "file:", 5) == 0;
     if (is_uri) at += 5;
-    if (is_uri && strncmp(at, "//", 2) == 0) { /* behind the name of the host */
+    if (is_uri && strncmp(at, "//", 2) == 0) { /* after the host name of the URI */
         const char *slash = strchr(at + 2, '/');
         at = slash ? slash : at + 2;
     }
@@ -141,7 +142,7 @@ fmi2_status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance
 {
     NEEDS(c);
     instance *i = c;
-    (void)tolerance_defined; /* the case says it */
+    (void)tolerance_defined; /* set by the case */
     (void)tolerance;
     (void)stop_defined; /* a tank has no end */
     (void)stop;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The interface of FMI 2.0 for co-simulation, as far as the module has more than a refusal for it: types of values and of functions, written
- * after the text of the standard (https://fmi-standard.org). Functions are exported under the standard's names. */
+/* The part of the FMI 2.0 interface for co-simulation that the module implements: types of values
+ * and of functions, written after the text of the standard (https://fmi-standard.org). Functions
+ * are exported under the standard's names. */
 #ifndef MPS_FMI2_H
 #define MPS_FMI2_H
 
@@ -9,11 +10,11 @@
 typedef int fmi2_status; /* 0 ok, 1 warning, 2 discard, 3 error, 4 fatal, 5 pending */
 typedef unsigned int fmi2_reference;
 
-/* The message is a format of printf(). */
+/* The message is a printf() format. */
 typedef void fmi2_log(void *environment, const char *name, fmi2_status status, const char *category,
                       const char *message, ...);
 
-/* What an importer gives at instantiation. */
+/* Passed by an importer at instantiation. */
 typedef struct fmi2_callbacks {
     fmi2_log *log;
     void *(*allocate)(size_t count, size_t size);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of FMI 2.0 that importers look for, and that a tank has nothing for: whole numbers, flags, texts, derivatives of signals. They
- * refuse; where a call names no variable, there is nothing to refuse. */
+/* Functions of FMI 2.0 that importers require and a tank does not support: whole numbers, flags,
+ * texts, derivatives of signals. They refuse, unless a call names no variable. */
 #include <mps/export.h>
 #include <stddef.h>
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* FMI 3.0, co-simulation: the names and types of the standard over the adapter. Names of functions are those of the standard. */
+/* FMI 3.0, co-simulation: maps names and types of the standard to the adapter. Names of functions
+ * are those of the standard. */
 #include "fmi3.h"
 #include "adapter.h"
 #include <stdlib.h>
@@ -28,7 +29,7 @@ EXPORT fmi3_state_read fmi3DeserializeFMUState;
 EXPORT fmi3_derivative fmi3GetDirectionalDerivative;
 EXPORT fmi3_step fmi3DoStep;
 
-/* What a call cannot do without: an importer that gives NULL gets an error. */
+/* Required arguments: an importer that passes NULL gets an error. */
 #define NEEDS(what)                    \
     do {                               \
         if (!(what)) return FMU_ERROR; \
@@ -65,7 +66,7 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
     instance *i = calloc(1, sizeof *i);
     (void)name;
     (void)visible;
-    (void)early_return; /* steps are done as a whole */
+    (void)early_return; /* steps are never interrupted */
     (void)intermediate;
     (void)update;
     if (!i) return NULL;
@@ -93,7 +94,7 @@ fmi3_status fmi3EnterInitializationMode(void *c, bool tolerance_defined, double 
                                         double start, bool stop_defined, double stop)
 {
     NEEDS(c);
-    (void)tolerance_defined; /* the case says it */
+    (void)tolerance_defined; /* set by the case */
     (void)tolerance;
     (void)stop_defined; /* a tank has no end */
     (void)stop;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The interface of FMI 3.0 for co-simulation, as far as the module has more than a refusal for it: types of values and of functions, written
- * after the text of the standard (https://fmi-standard.org). Functions are exported under the standard's names. */
+/* The part of the FMI 3.0 interface for co-simulation that the module implements: types of values
+ * and of functions, written after the text of the standard (https://fmi-standard.org). Functions
+ * are exported under the standard's names. */
 #ifndef MPS_FMI3_H
 #define MPS_FMI3_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of FMI 3.0 that importers look for, and that a tank has nothing for: other types of values, events, clocks, other kinds of
- * simulation. They refuse; where a call names no variable, there is nothing to refuse. */
+/* Functions of FMI 3.0 that importers require and a tank does not support: other types of values,
+ * events, clocks, other kinds of simulation. They refuse, unless a call names no variable. */
 #include <mps/export.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -35,7 +35,7 @@ VALUES(UInt64, uint64_t)
 VALUES(Boolean, bool)
 VALUES(String, const char *)
 
-/* A call that always refuses: more arguments may come, they are not looked at. */
+/* A call that always refuses; its further arguments are ignored. */
 #define REFUSE(NAME, ...)          \
     MPS_API int NAME(__VA_ARGS__); \
     int NAME(__VA_ARGS__)

@@ -27,7 +27,7 @@ static bool make_folder(fmu_model *m, char *error, size_t size)
     return true;
 }
 
-/* Files of this folder are the lock of the job and checkpoints. */
+/* Files in this folder: the lock of the job, and checkpoints. */
 static void remove_folder(fmu_model *m)
 {
     char path[sizeof m->folder + 256];
@@ -53,7 +53,7 @@ static bool read_dim(fmu_model *m, char *error, size_t size)
     return true;
 }
 
-/* The importer moves the tank, so that a body of the case would have no motion to tell. */
+/* The importer moves the tank, so the motion of a body in the case would have no effect. */
 static bool refuse_body(fmu_model *m, char *error, size_t size)
 {
     mps_body_report report;

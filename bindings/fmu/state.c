@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* States of a tank: snapshots; as bytes, checkpoints with the values of the importer before them. */
+/* States of a tank: snapshots; as bytes, checkpoints preceded by the values of the importer. */
 #include "adapter.h"
 #include <errno.h>
 #include <math.h>
@@ -11,12 +11,12 @@
 struct fmu_state {
     mps_snapshot *snapshot;
     fmu_values v;
-    unsigned char *bytes; /* NULL: not asked for yet */
+    unsigned char *bytes; /* NULL: not requested yet */
     size_t size;
     fmu_state *next;
 };
 
-/* What stands before the checkpoint. */
+/* The header before the checkpoint. */
 typedef struct head {
     char magic[8];
     char token[FMU_TOKEN];
@@ -44,7 +44,7 @@ void fmu_state_free(fmu *f, fmu_state *state)
     }
 }
 
-/* It is one of this instance. */
+/* The state belongs to this instance. */
 static fmu_status check(const fmu *f, const fmu_state *state)
 {
     for (const fmu_state *s = f->states; s; s = s->next)
@@ -89,7 +89,7 @@ static void path_of(const fmu *f, char *path, size_t size)
     snprintf(path, size, "%s/state.mps", f->model.folder);
 }
 
-/* The head and the file behind it. @return false: why is in errno */
+/* Read the header and the file after it. @return false: errno */
 static bool read_file(fmu_state *s, const char *path, const head *h)
 {
     FILE *file = fopen(path, "rb");
@@ -129,14 +129,14 @@ static fmu_status write_bytes(fmu *f, fmu_state *s)
     return good ? FMU_OK : fmu_tell(f, FMU_ERROR, "state as bytes: %s: %s", path, why);
 }
 
-/* Go back to `f->before`, where a call began. */
+/* Restore `f->before`, the state at the beginning of a call. */
 static fmu_status go_back(fmu *f, fmu_status status)
 {
     if (mps_snapshot_restore(f->before) == MPS_OK) return status;
     return fmu_refused(f, FMU_ERROR, "state, going back");
 }
 
-/* A state of this instance gets its bytes, unless it has them. */
+/* Create the bytes of a state of this instance, unless they exist. */
 static fmu_status need_bytes(fmu *f, fmu_state *state)
 {
     const fmu_status status = check(f, state);
@@ -166,7 +166,7 @@ fmu_status fmu_state_write(fmu *f, fmu_state *state, void *out, size_t size)
     return FMU_OK;
 }
 
-/* Bytes may come from anywhere. @return NULL, or what is wrong */
+/* The bytes are not trusted. @return NULL, or the error */
 static const char *check_head(const fmu *f, const head *h)
 {
     const double *numbers = &h->v.start;
@@ -188,8 +188,9 @@ static bool write_file(const char *path, const unsigned char *bytes, size_t size
     return good;
 }
 
-/* Read the checkpoint, and take it as a state. The tank stands at its pose. Then the motion is one by poses again, so that
- * the next pose is no start; the state does not know of it. */
+/* Read the checkpoint, and take it as a state. The tank is at its pose. The motion is then
+ * prescribed by poses again, so that the next pose is not an initial one; the state does not
+ * contain this. */
 static fmu_status arrive(fmu *f, const head *h, const char *path, fmu_state **state)
 {
     mps_sim *sim = f->model.sim;

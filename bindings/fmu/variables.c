@@ -49,7 +49,7 @@ static void fill(int32_t dim, fmu_kind kind, int32_t dof, fmu_variable *v)
     v->about = turns ? table[kind].turned_about : table[kind].about;
 }
 
-/* A name of FMI is of letters, digits and '_', or stands in quotes. */
+/* A name of FMI consists of letters, digits and '_', or is quoted. */
 static bool is_plain(const char *name)
 {
     if (isdigit((unsigned char)name[0])) return false;
@@ -61,7 +61,7 @@ static bool is_plain(const char *name)
 static bool fill_sensor(const fmu_model *m, int32_t number, fmu_variable *v)
 {
     mps_job_column c;
-    int32_t column = number; /* the motion, whose columns are the first, is the importer's */
+    int32_t column = number; /* the importer prescribes the motion, whose columns are the first */
     mps_job_column_init(&c, sizeof c);
     for (int32_t k = 0; mps_job_column_get(m->job, k, &c) == MPS_OK && c.flags & MPS_JOB_MOTION;
          k++)
@@ -97,7 +97,7 @@ bool fmu_variable_of(const fmu_model *m, uint32_t reference, fmu_variable *v)
     return false;
 }
 
-/* Fowler, Noll and Vo's hash of 64 bits, FNV-1a. */
+/* Hash of 64 bits by Fowler, Noll and Vo, FNV-1a. */
 static uint64_t hash(uint64_t h, const char *text)
 {
     for (; *text; text++) h = (h ^ (unsigned char)*text) * 1099511628211u;

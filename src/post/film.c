@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Films: the picture of each frame goes to ffmpeg. */
+/* Films: the picture of each frame is piped to ffmpeg. */
 #include "film_pipe.h"
 #include "picture_canvas.h"
 #include "picture_scene.h"
@@ -34,18 +34,18 @@ static mps_status check(const char *folder, const mps_film_config *config, page_
     return MPS_OK;
 }
 
-/* A film that is made. */
+/* A film being made. */
 typedef struct making {
     const mps_film_config *config;
     const film *f;
-    const char *url; /* of the file that is written until the film is complete */
+    const char *url; /* of the temporary file */
     page_errors *e;
     mps_picture_config picture; /* of all frames */
     scene s;
     film_frame frame;
     film_pipe pipe;
     bool started;
-    double lo[3], hi[3]; /* what the first picture shows */
+    double lo[3], hi[3]; /* bounds of the first picture */
 } making;
 
 static double rate_of(const making *m)
@@ -56,7 +56,7 @@ static double rate_of(const making *m)
     return t > 0 ? fmax(5, fmin((double)(run->frames - 1) / t, 60)) : 5;
 }
 
-/* Bytes of a pixel in the order of this machine's memory. */
+/* Pixel format for the byte order of this machine. */
 static const char *pixel_format(void)
 {
     const uint16_t one = 1;
@@ -71,7 +71,7 @@ static mps_status start(making *m, const canvas *c)
     const int thousandths = (int)lround(1000 * rate_of(m));
     snprintf(size, sizeof size, "%dx%d", c->width, c->height);
     snprintf(rate, sizeof rate, "%d/1000", thousandths);
-    /* H.264 in yuv420p is what every player shows; colours of bt709 are what they expect */
+    /* all players show H.264 in yuv420p; they expect colours of bt709 */
     const char *const argv[] = {m->config->program,
                                 "-y",
                                 "-nostdin",
@@ -141,7 +141,7 @@ static mps_status add_frame(making *m, int64_t k)
         memcpy(m->lo, m->s.lo, sizeof m->lo);
         memcpy(m->hi, m->s.hi, sizeof m->hi);
     }
-    /* the same in all pictures, to the last digit: so they have one size */
+    /* bitwise equal in all pictures, so that these have the same size */
     memcpy(m->s.lo, m->lo, sizeof m->lo);
     memcpy(m->s.hi, m->hi, sizeof m->hi);
     if (!mps__scene_scale(&m->s, &m->picture))
@@ -162,7 +162,7 @@ static mps_status add_frames(making *m)
     for (int64_t k = 0; status == MPS_OK && k < m->f->run->frames; k++) status = add_frame(m, k);
     mps__film_frame_free(&m->frame);
     mps__scene_free(&m->s);
-    /* where the child stopped reading there is no text yet: its own words are the best */
+    /* the child's own error output explains a failed write best */
     if (!m->started) return status;
     const mps_status ended = mps__pipe_end(&m->pipe, m->e);
     if (status == MPS_OK) return ended;
@@ -170,14 +170,14 @@ static mps_status add_frames(making *m)
                           m->config->program);
 }
 
-/* Beside its place, and renamed when it is complete. */
+/* Written to a temporary file, and renamed when it is complete. */
 static mps_status make(const film *f, const mps_film_config *config, const char *path,
                        page_errors *e)
 {
     const size_t length = strlen(path);
     char *url = malloc(length + 10);
     if (!url) return mps__page_fail(e, MPS_E_NOMEM, "no memory for a film");
-    /* with "file:" ffmpeg takes no name for an option or an address */
+    /* with "file:" ffmpeg takes no name for an option or a URL */
     snprintf(url, length + 10, "file:%s.tmp", path);
     const char *temporary = url + strlen("file:");
     making m = {.config = config, .f = f, .url = url, .e = e};

@@ -10,7 +10,7 @@
 
 extern char **environ;
 
-/* Not inherited by other children of the host program, which would keep the pipe open. */
+/* Not inherited by other children of the application, which would keep the pipe open. */
 static bool keep_own(int file)
 {
     return fcntl(file, F_SETFD, FD_CLOEXEC) == 0;
@@ -27,14 +27,15 @@ static int spawn(film_pipe *p, int input, const char *const *argv)
                                                   0);
     if (!failed)
         failed = posix_spawn_file_actions_adddup2(&actions, fileno(p->words), STDERR_FILENO);
-    /* the child changes none of the texts, though its type allows it */
+    /* execvp() changes none of the texts, though its type allows it */
     if (!failed)
         failed = posix_spawnp(&p->child, argv[0], &actions, NULL, (char *const *)argv, environ);
     posix_spawn_file_actions_destroy(&actions);
     return failed;
 }
 
-/* A socket, not a pipe. If the child has ended, a write to a pipe sends SIGPIPE to the whole program; a write to a socket only fails. */
+/* A socket, not a pipe: after the end of the child a write to a pipe sends SIGPIPE to the whole
+ * program; a write to a socket only fails. */
 mps_status mps__pipe_start(film_pipe *p, const char *const *argv, page_errors *e)
 {
     int both[2] = {-1, -1}, failed = 0;
@@ -66,7 +67,7 @@ bool mps__pipe_write(film_pipe *p, const void *data, size_t size)
     return true;
 }
 
-/* What the child said, in one line. */
+/* The end of the child's stderr, in one line. */
 static void last_words(film_pipe *p, char *out, size_t size)
 {
     rewind(p->words);

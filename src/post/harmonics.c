@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Harmonics of a series by least squares: normal equations of 1, sin k w t, cos k w t, which are near to orthogonal over a period or more. */
+/* Harmonics of a series by least squares: normal equations of 1, sin k w t, cos k w t, nearly
+ * orthogonal over a period or more. */
 #include "statistics.h"
 #include <math.h>
 #include <string.h>
@@ -8,7 +9,7 @@ enum { UNKNOWNS = 2 * MPS_HARMONICS + 1 };
 
 static const double PI = 3.14159265358979323846;
 
-/* Normal equations; the last column is the right side. */
+/* Normal equations; the last column is the right-hand side. */
 typedef struct equations {
     int size; /* unknowns */
     double row[UNKNOWNS][UNKNOWNS + 1];
@@ -42,11 +43,11 @@ static void add_sample(equations *e, const double *basis, double p)
     }
 }
 
-/* Cholesky's method, in place. @return false: the equations have no solution of their own */
+/* Cholesky's method, in place. @return false: the matrix is singular */
 static bool solve(equations *e, double *x)
 {
-    const double least =
-        1e-10; /* pivot over diagonal: below it the samples do not tell two terms apart */
+    /* pivot over diagonal: below it the samples cannot distinguish two terms */
+    const double least = 1e-10;
     const int n = e->size;
     for (int i = 0; i < n; i++) {
         const double diagonal = e->row[i][i];
@@ -73,7 +74,7 @@ static bool solve(equations *e, double *x)
     return true;
 }
 
-/* Root mean square of p without its mean and its harmonics. */
+/* Root mean square of p minus its mean and its harmonics. */
 static double find_rest(const mps_stats_config *config, int64_t n, const double *t, const double *p,
                         const mps_harmonics *h)
 {
@@ -90,7 +91,7 @@ static double find_rest(const mps_stats_config *config, int64_t n, const double 
     return sqrt(sum / (double)used);
 }
 
-/* Sum over the samples that are used. @return an error if they cannot tell the harmonics apart */
+/* Sum over the samples in use. @return an error if they cannot distinguish the harmonics */
 static mps_status gather(const mps_stats_config *config, int64_t n, const double *t,
                          const double *p, const mps_harmonics *h, equations *e)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* report.html of a run: its parts are made in memory, then written beside its place and renamed. */
+/* report.html of a run: its parts are written to unnamed files, then to a temporary file that is
+ * renamed. */
 #include "page_assets.h"
 #include "page_parts.h"
 #include "page_text.h"
@@ -30,10 +31,11 @@ mps_status mps_page_info_init(mps_page_info *info, size_t size)
     return MPS_OK;
 }
 
-/* A part of the page, in a file without a name. Not in memory: a stream to memory does not tell every failure. */
+/* A part of the page, in an unnamed file. Not in memory: a stream to memory does not report every
+ * failure. */
 typedef struct part {
     FILE *out;
-    int64_t size; /* -1: it is not complete */
+    int64_t size; /* -1: it is incomplete */
 } part;
 
 static mps_status part_fail(const page_run *r)
@@ -48,13 +50,13 @@ static mps_status part_open(part *p, const page_run *r)
     if (!path) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
     p->out = mps__run_create(path, "w+b");
     mps_status status = p->out ? MPS_OK : part_fail(r);
-    if (p->out) remove(path); /* it stays as long as it is open */
+    if (p->out) remove(path); /* the file exists until it is closed */
     p->size = -1;
     free(path);
     return status;
 }
 
-/* All of the part is written. @return status, or MPS_E_IO */
+/* Complete the part. @return status, or MPS_E_IO */
 static mps_status part_end(part *p, const page_run *r, mps_status status)
 {
     if (status != MPS_OK) return status;
@@ -87,7 +89,7 @@ static void write_asset(FILE *out, const unsigned char *data, size_t size)
     fwrite(data, 1, size, out);
 }
 
-/* A module among others in one element: without its imports, and without the word "export". */
+/* Write a module into an element with other modules: without its imports and the word "export". */
 static void write_module(FILE *out, const unsigned char *data, size_t size)
 {
     const char *line = (const char *)data, *const end = line + size;
@@ -136,7 +138,7 @@ static void write_scripts(FILE *out)
     fputs("</script>\n", out);
 }
 
-/* All that stands behind the film's text. */
+/* Write all that follows the film. */
 static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
 {
     mps__page_sketch(out, r);
@@ -154,7 +156,7 @@ static mps_status write_rest(FILE *out, const page_run *r, int64_t bytes)
     return status;
 }
 
-/* ---- the file ---------------------------------------------------------------------------------------------------- */
+/* ---- the file -------------------------------------------------------------------------------- */
 
 static mps_status cannot(const page_run *r, const char *what, const char *path)
 {
@@ -216,7 +218,7 @@ static mps_status make_film(page *p, const page_run *r, int64_t bytes, int32_t f
 
 static mps_status make_parts(page *p, const page_run *r, const mps_page_config *config)
 {
-    enum { STAGE = 6000 }; /* more than the stage and its note need */
+    enum { STAGE = 6000 }; /* upper bound of the stage and its note */
     mps_status status = part_open(&p->begin, r);
     if (status == MPS_OK) {
         write_begin(p->begin.out, r);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Files of src/post/page as arrays; the build makes their source. */
+/* Files of src/post/page as arrays; the build generates their source. */
 #ifndef MPS_POST_PAGE_ASSETS_H
 #define MPS_POST_PAGE_ASSETS_H
 

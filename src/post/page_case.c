@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What was asked for, by what it was computed, and the case itself. */
+/* Inputs of a run, the models and solver used, and the case itself. */
 #include "page_parts.h"
 #include "page_text.h"
 #include <math.h>
@@ -64,7 +64,7 @@ static void write_fluids(FILE *out, const page_run *r)
     }
 }
 
-/* As asked for, and along each axis, where these differ from the spacing as built. */
+/* The spacing as requested, and along each axis, if these differ from the one as built. */
 static void row_spacing(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "lattice");
@@ -119,7 +119,7 @@ static void write_inputs(FILE *out, const page_run *r)
     table_end(out);
 }
 
-/* Models that took part in the steps, those of plug-ins too. */
+/* Models that took part in the steps, including those of plug-ins. */
 static void row_models(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "models");
@@ -170,7 +170,7 @@ static void write_origin(FILE *out, const page_run *r)
     table_end(out);
 }
 
-/* The numbers that the case measured for itself. */
+/* Figures that the case defines. */
 static void write_figures(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "figures");
@@ -194,7 +194,7 @@ static void write_figures(FILE *out, const page_run *r)
     table_end(out);
 }
 
-/* @param common  those that each run has, or those of this case */
+/* @param common  columns that each run has, or those of this case */
 static void write_some(FILE *out, const page_run *r, const char *title, bool common)
 {
     char name[160];
@@ -219,8 +219,8 @@ static void write_columns(FILE *out, const page_run *r)
     fputs("</details>\n", out);
 }
 
-/* The case as it was run, which a program can read back: in the text of the element "<\" stands
- * for "<". */
+/* The case as run, which a program can read back: in the text of the element "<\" represents
+ * "<". */
 static void write_text(FILE *out, const page_run *r)
 {
     if (!r->text) return;

@@ -37,7 +37,7 @@ static bool bytes_room(codec_bytes *b, size_t more)
     return true;
 }
 
-/* Deflate until the input is taken, with Z_FINISH to the end. */
+/* Deflate until the input is consumed, with Z_FINISH to the end. */
 static bool deflate_all(z_stream *s, int flush, codec_bytes *out)
 {
     int status = Z_OK;
@@ -53,12 +53,12 @@ static bool deflate_all(z_stream *s, int flush, codec_bytes *out)
     return true;
 }
 
-/* Input of more than an uInt, too. */
+/* Input may exceed an uInt. */
 static bool deflate_block(z_stream *s, const unsigned char *data, size_t size, codec_bytes *out)
 {
     while (size > 0) {
         const size_t part = size < 1 << 30 ? size : 1 << 30;
-        s->next_in = (unsigned char *)(uintptr_t)data; /* zlib does not change it */
+        s->next_in = (unsigned char *)(uintptr_t)data; /* zlib does not modify it */
         s->avail_in = (uInt)part;
         if (!deflate_all(s, Z_NO_FLUSH, out)) return false;
         data += part;
@@ -67,7 +67,7 @@ static bool deflate_block(z_stream *s, const unsigned char *data, size_t size, c
     return true;
 }
 
-/* 0, -1, 1, -2, 2 ... as 0, 1, 2, 3, 4: of a difference modulo 2^bits. */
+/* Map 0, -1, 1, -2, 2 ... to 0, 1, 2, 3, 4: of a difference modulo 2^bits. */
 static unsigned fold(unsigned difference, int32_t bits)
 {
     const unsigned half = 1u << (bits - 1), all = 1u << bits;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How particles and curves are packed: differences from a prediction, bytes of one significance side by side, deflate, base64.
- * decode.js undoes it. */
+/* Packs particles and curves: differences from a prediction, byte planes, deflate, base64.
+ * decode.js unpacks them. */
 #ifndef MPS_POST_PAGE_CODEC_H
 #define MPS_POST_PAGE_CODEC_H
 
@@ -10,15 +10,17 @@
 #include <stdio.h>
 #include <zlib.h>
 
-/* Packed bytes that grow. */
+/* A growing array of packed bytes. */
 typedef struct codec_bytes {
     unsigned char *data;
     size_t size, capacity;
 } codec_bytes;
 
-/* Particles of a film, frame by frame. A coordinate is an integer of `bits` bits; the last two frames predict it: 2 x - x before.
- * Frame in a block, each a plane of [count] bytes: low bytes of x, y (, z); high bytes of x, y (, z); pressure; speed (; pocket). All are
- * differences: coordinates from the prediction, modulo 2^bits, small ones of either sign as small numbers; values from the frame before. */
+/* Particles of a film, frame by frame. A coordinate is an integer of `bits` bits, predicted from
+ * the last two frames: 2 x - x before. A frame in a block has one plane of [count] bytes each: low
+ * bytes of x, y (, z); high bytes of x, y (, z); pressure; speed (; pocket). All are differences:
+ * coordinates from the prediction, modulo 2^bits, with small ones of either sign mapped to small
+ * numbers; values from the frame before. */
 typedef struct codec {
     int64_t count;
     int32_t dim, values, bits;
@@ -30,23 +32,24 @@ typedef struct codec {
     bool open; /* a block has begun */
 } codec;
 
-/* Level of deflate. */
+/* Compression level of deflate. */
 enum { CODEC_LEVEL = 6 };
 
-/* @return false without memory; codec_free() is allowed then, too */
+/* @return false: memory is exhausted; codec_free() is still valid */
 bool mps__codec_create(codec *c, int64_t count, int32_t dim, int32_t values, int32_t bits);
 void mps__codec_free(codec *c);
-/* Append a frame to the block that is open, or begin one.
+/* Append a frame to the open block, or begin one.
  * @param q      [dim*count], plane by plane, below 2^bits
- * @param value  [values*count], pressures, then speeds, then what else there is
- * @return false without memory */
+ * @param value  [values*count], pressures, then speeds, then others
+ * @return false: memory is exhausted */
 bool mps__codec_frame(codec *c, const uint16_t *q, const unsigned char *value, codec_bytes *out);
-/* End the block. @return false without memory */
+/* End the block. @return false: memory is exhausted */
 bool mps__codec_end(codec *c, codec_bytes *out);
 
-/* Deflate a whole array. @return false without memory */
+/* Deflate a whole array. @return false: memory is exhausted */
 bool mps__codec_pack(const void *data, size_t size, codec_bytes *out);
-/* A curve: 16 bits a value, of the range from lo to hi; 65535 is NAN. Differences modulo 65536, all low bytes, then all high bytes. */
+/* Pack a curve: 16 bits a value, over the range from lo to hi; 65535 is NAN. Differences modulo
+ * 65536, all low bytes, then all high bytes. */
 bool mps__codec_curve(const double *value, int64_t count, int64_t stride, double lo, double hi,
                       codec_bytes *out);
 void mps__codec_base64(FILE *out, const codec_bytes *bytes);

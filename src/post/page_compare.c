@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How far the columns of the run are from the known values of its case. */
+/* Compares columns of the run with the reference values of its case. */
 #include "page_parts.h"
 #include "page_text.h"
 #include "statistics.h"
@@ -74,7 +74,7 @@ static mps_status write_row(FILE *out, against *g, int32_t column)
     return MPS_OK;
 }
 
-/* The column of its name, or all of its unit. */
+/* Rows for the column of its name, or for all columns of its unit. */
 static mps_status write_rows(FILE *out, against *g)
 {
     const page_table *t = &g->run->probes;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Curves of a page: columns of the tables, packed, in groups that become plots. */
+/* Curves of a page: packed columns of the tables, grouped in plots. */
 #include "page_parts.h"
 #include "page_text.h"
 #include <math.h>
@@ -8,10 +8,10 @@
 
 enum { ROWS_LEAST = 500, ROWS_MOST = 20000 };
 
-/* Which column belongs into which plot. */
+/* Assigns columns to plots. */
 typedef struct plot_rule {
     const char *column, *place, *plot, *label; /* label: of the curve */
-    const char *unit;                          /* NULL: that of the column; "%" of shares */
+    const char *unit;                          /* NULL: that of the column; "%" for fractions */
 } plot_rule;
 
 static const plot_rule probes_rule[] = {
@@ -54,7 +54,8 @@ static const plot_rule steps_rule[] = {
 static const plot_rule momentum_rule[] = {
     MOMENTUM("x"), MOMENTUM("y"), MOMENTUM("z"), {NULL, NULL, NULL, NULL, NULL}};
 
-/* A table, thinned to `points` rows: of each bucket of rows the least and the largest value, in their order. */
+/* A table, thinned to `points` rows: of each bucket of rows the least and the largest value, in
+ * their order. */
 typedef struct curves {
     FILE *out;
     const page_run *run;
@@ -131,7 +132,7 @@ static bool even_times(const curves *c)
     return true;
 }
 
-/* Doubles, the lowest byte first, where they are not even. */
+/* Write times as little-endian doubles if they are not equidistant. */
 static mps_status write_times(curves *c)
 {
     codec_bytes bytes = {0};
@@ -162,7 +163,7 @@ static void write_member(FILE *out, const char *key, const char *text)
     fputs(", ", out);
 }
 
-/* Displacements by the ship's names are those of the centre: more than x_tank. */
+/* Displacements by degree of freedom of the ship are those of its centre: they replace x_tank. */
 static bool has_motion(const page_run *r)
 {
     bool any = false;
@@ -170,7 +171,7 @@ static bool has_motion(const page_run *r)
     return any;
 }
 
-/* What a curve is, and in which plot. @return false: it is not shown */
+/* Describe a curve and its plot. @return false: it is not shown */
 static bool describe(const curves *c, int32_t k, page_column *column, plot_rule *rule)
 {
     const char *name = c->table->name[k];
@@ -207,7 +208,7 @@ static mps_status write_curve(curves *c, int32_t k)
             hi = fmax(hi, c->value[i]);
         }
     if (!(hi >= lo)) lo = hi = 0;
-    if (lo == 0 && hi == 0 && rule.plot) return MPS_OK; /* e.g. a tank that stands */
+    if (lo == 0 && hi == 0 && rule.plot) return MPS_OK; /* e.g. a tank at rest */
     if (!mps__codec_curve(c->value, c->points, 1, lo, hi, &bytes)) {
         free(bytes.data);
         return no_memory(c->run);
@@ -252,7 +253,7 @@ static mps_status write_table(curves *c, const char *name, int64_t rows_most)
     return status;
 }
 
-/* "[t, value]"; points that are none are left out. */
+/* Write "[t, value]"; points that are not finite are omitted. */
 static void write_points(FILE *out, const json_value *list)
 {
     bool any = false;
@@ -265,7 +266,7 @@ static void write_points(FILE *out, const json_value *list)
     }
 }
 
-/* Known points of others. */
+/* Write reference points. */
 static void write_references(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "references");

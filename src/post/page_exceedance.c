@@ -16,11 +16,11 @@ enum {
     RANKS = 1024
 };
 
-/* Map from pressure and share to the drawing. */
+/* Maps pressure and fraction to the drawing. */
 typedef struct axes {
     FILE *out;
-    double lo, hi, least; /* pressures; smallest share */
-    bool model;           /* full scale is another one */
+    double lo, hi, least; /* pressures; smallest fraction */
+    bool model;           /* full scale is a different scale */
 } axes;
 
 static double at_x(const axes *a, double p)
@@ -33,7 +33,8 @@ static double at_y(const axes *a, double share)
     return TOP + (HEIGHT - TOP - FOOT) * log(share) / log(a->least);
 }
 
-/* Ranks to draw: of many peaks those that can be told apart on a logarithmic axis. @return how many */
+/* Ranks to draw: if there are many peaks, those distinguishable on a logarithmic axis.
+ * @return their number */
 static int choose_ranks(int64_t count, int64_t rank[RANKS])
 {
     int n = 0;

@@ -6,7 +6,8 @@
 #include <mps/stats.h>
 #include <stdio.h>
 
-/* Share of the peaks above a pressure, on a logarithmic axis: points, their band, both fits. Nothing where there are fewer than two peaks. */
+/* Fraction of the peaks above a pressure, on a logarithmic axis: points, their confidence band,
+ * both fits. Nothing if there are fewer than two peaks. */
 void mps__page_exceedance(FILE *out, const mps_impacts *impacts, const char *name);
 
 #endif

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All frames of a run, read once: which particles move, how the tank moves, bounds and colour scales. */
+/* Reads all frames of a run once: moving particles, motion of the tank, bounds and colour
+ * scales. */
 #include "page_film.h"
 #include "page_pose.h"
 #include <math.h>
@@ -13,7 +14,7 @@ static mps_status no_memory(const film *f)
     return mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the film of the page");
 }
 
-/* ---- a frame ----------------------------------------------------------------------------------------------------- */
+/* ---- a frame --------------------------------------------------------------------------------- */
 
 void mps__film_frame_free(film_frame *s)
 {
@@ -60,7 +61,7 @@ static mps_status frame_fill(const film *f, const vtp_frame *v, film_frame *s)
                                   v->piece[0].path, array[k].name, (int)array[k].width);
         status = mps__vtp_read(v, array[k].name, array[k].out);
     }
-    if (status == MPS_OK && mps__vtp_width(v, "pocket") == 1) /* of gas.pocket alone */
+    if (status == MPS_OK && mps__vtp_width(v, "pocket") == 1) /* only with the model gas.pocket */
         status = mps__vtp_read(v, "pocket", s->pocket);
     return status;
 }
@@ -79,7 +80,7 @@ mps_status mps__film_frame_read(const film *f, int64_t k, film_frame *out)
     return status;
 }
 
-/* ---- places by id ------------------------------------------------------------------------------------------------ */
+/* ---- indices by id --------------------------------------------------------------------------- */
 
 static int compare_entries(const void *a, const void *b)
 {
@@ -117,7 +118,7 @@ static void index_sort(film_index *index)
     index->sorted = index->count;
 }
 
-/* ---- the survey -------------------------------------------------------------------------------------------------- */
+/* ---- the survey ------------------------------------------------------------------------------ */
 
 static void take_bounds(film *f, const double X[3])
 {
@@ -157,7 +158,7 @@ static mps_status take_moving(film *f, double id, double phase)
     return status;
 }
 
-/* Parts of the tank itself, by their names: what is no part of it stands in it. */
+/* Find the parts of the tank itself by their names; other parts are solids inside it. */
 static void take_tank_parts(film *f, const film_frame *s)
 {
     int number = 0;
@@ -166,7 +167,7 @@ static void take_tank_parts(film *f, const film_frame *s)
         f->part_of_tank[number] = strncmp(name, "tank", 4) == 0;
 }
 
-/* Walls of the first frame. */
+/* Take the walls of the first frame. */
 static mps_status take_walls(film *f, const film_frame *s)
 {
     int64_t count = 0;
@@ -186,7 +187,7 @@ static mps_status take_walls(film *f, const film_frame *s)
     return MPS_OK;
 }
 
-/* A part whose walls leave their places in the tank is a free body. */
+/* A part whose walls move relative to the tank is a free body. */
 static void check_wall(film *f, const film_frame *s, int64_t i, const double X[3])
 {
     const int64_t place = mps__film_find(&f->wall, s->id[i]);
@@ -219,7 +220,7 @@ static mps_status survey_frame(film *f, const film_frame *s, const film_pose *po
     return status;
 }
 
-/* Walls of free bodies are among what moves. */
+/* Walls of free bodies are moving particles. */
 static mps_status take_bodies(film *f)
 {
     mps_status status = MPS_OK;
@@ -233,7 +234,7 @@ static mps_status take_bodies(film *f)
     return status;
 }
 
-/* The frame of the tank is another one than that of the lab. */
+/* Whether the frame of the tank differs from that of the lab. */
 static bool is_moved(const film_pose *a, double dp)
 {
     static const film_pose rest = {{1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}};
@@ -264,7 +265,7 @@ static mps_status survey_frames(film *f, film_frame *s)
     return status;
 }
 
-/* The scale that pictures of the run have, if the summary knows it. */
+/* Use the scale of the pictures of the run, if the summary has it. */
 static void take_given_scale(film *f)
 {
     const json_value *list = mps__json_get(f->run->summary, "pressure_scale");
@@ -294,7 +295,8 @@ mps_status mps__film_survey(film *f, const page_run *run)
     if (status == MPS_OK) status = take_bodies(f);
     mps__film_frame_free(&s);
     const double most = f->pressure.most;
-    /* A thousandth of rho (g dp + u^2), with water for the density: smaller pressures are rounding. */
+    /* a thousandth of rho (g dp + u^2), with the density of water: smaller pressures are
+     * rounding */
     const double g = isfinite(gravity) ? gravity : 9.81;
     mps__scale_end(&f->pressure, g * f->dp + f->speed2, f->phases > 1);
     mps__scale_end(&f->speed, 1e-6, false);

@@ -17,7 +17,7 @@ typedef struct sensor {
     double highest;
 } sensor;
 
-/* The column as a signal of its own. */
+/* Evaluate the column as a signal of its own. */
 static mps_status find_impacts(const page_run *r, const mps_stats_config *config, sensor *s)
 {
     const page_table *t = &r->probes;
@@ -37,9 +37,9 @@ static mps_status find_impacts(const page_run *r, const mps_stats_config *config
     return status;
 }
 
-/* ---- texts ------------------------------------------------------------------------------------------------------- */
+/* ---- texts ----------------------------------------------------------------------------------- */
 
-/* Figures of a run at model scale and at full scale are not the same. */
+/* Whether figures at model scale and at full scale differ. */
 static bool is_scaled(const mps_impacts_info *info)
 {
     return info->pressure_scale != 1 || info->time_scale != 1;
@@ -76,7 +76,7 @@ static void write_fit(FILE *out, const mps_impacts *impacts, int32_t kind, const
     fputs("</li>\n", out);
 }
 
-/* The end of a record with as many events as a fit needs, at this rate, with two digits [s]. */
+/* End of a record that has as many events as a fit needs, at this rate, with two digits [s]. */
 static double wanted_end(const mps_impacts_info *info, const mps_stats_config *c)
 {
     const double end = info->t_first + c->least_events / info->rate,
@@ -208,7 +208,7 @@ static const char *quantity_of(char out[TEXT_NUMBER], const mps_stats_constant *
     return isfinite(k->value) ? mps__quantity(out, k->value, k->unit) : "not given";
 }
 
-/* Every constant, as used, and what the run says where the page was made with another value. */
+/* Write every constant as used, and that of the run if the page was made with another value. */
 static void write_constants(FILE *out, const mps_stats_config *c, const mps_stats_config *of_run)
 {
     char a[TEXT_NUMBER], b[TEXT_NUMBER];
@@ -226,7 +226,7 @@ static void write_constants(FILE *out, const mps_stats_config *c, const mps_stat
     fputs("</tbody></table></details>\n", out);
 }
 
-/* ---- the section ------------------------------------------------------------------------------------------------- */
+/* ---- the section ----------------------------------------------------------------------------- */
 
 static int compare(const void *a, const void *b)
 {
@@ -234,7 +234,7 @@ static int compare(const void *a, const void *b)
     return (x->highest < y->highest) - (x->highest > y->highest);
 }
 
-/* Those of the run; with the time that is resolved, of the least one at a peak. */
+/* Constants of the run, and the resolved time, which is that of the least one at a peak. */
 static mps_status take_constants(const page_run *r, mps_stats_config *config)
 {
     const mps_status status = mps__stats_take(r, mps__page_number(r, "t_end"), config);
@@ -246,7 +246,7 @@ static mps_status take_constants(const page_run *r, mps_stats_config *config)
     return status;
 }
 
-/* The constants that the page is made with, over those of the run. */
+/* Constants given for the page override those of the run. */
 static void take_given(const page_run *r, mps_stats_config *config)
 {
     const mps_stats_config of_run = *config;
@@ -293,8 +293,7 @@ mps_status mps__page_impacts(FILE *out, const page_run *r, int64_t bytes)
         fputs("<section id=\"impacts\" aria-labelledby=\"impacts-title\">\n<h2 "
               "id=\"impacts-title\">Impacts</h2>\n",
               out);
-        if (status !=
-            MPS_OK) { /* constants of the case that do not fit: the rest of the page does */
+        if (status != MPS_OK) { /* the page does without these constants */
             fputs("<p class=\"warning\">There are no statistics: ", out);
             mps__html(out, text);
             fputs("</p>\n", out);

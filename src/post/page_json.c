@@ -6,7 +6,7 @@
 
 enum { DEEPEST = 64 };
 
-/* The text that is read, and what went wrong first. */
+/* The text being read, and the first error. */
 typedef struct reader {
     const char *at, *begin;
     const char *why;
@@ -43,7 +43,7 @@ static int hex_digit(char c)
     return c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* Four digits behind "\u". @return -1: they are none */
+/* Four hexadecimal digits after "\u". @return -1: invalid */
 static long take_unit(reader *r)
 {
     long code = 0;
@@ -55,7 +55,7 @@ static long take_unit(reader *r)
     return code;
 }
 
-/* A character of any plane, as UTF-8. @return bytes, 0: it is none */
+/* A character of any plane, as UTF-8. @return bytes, 0: invalid */
 static size_t take_character(reader *r, char *out)
 {
     long code = take_unit(r);
@@ -73,7 +73,7 @@ static size_t take_character(reader *r, char *out)
     return more + 1;
 }
 
-/* @return bytes put to `out`, 0: no such escape */
+/* @return bytes written to `out`, 0: no such escape */
 static size_t take_escape(reader *r, char *out)
 {
     static const char from[] = "\"\\/bfnrt", to[] = "\"\\/\b\f\n\r\t";
@@ -85,7 +85,7 @@ static size_t take_escape(reader *r, char *out)
     return 1;
 }
 
-/* Bytes up to the quote at the end; an escape is never shorter than what it stands for. */
+/* Bytes up to the closing quote; an escape is never shorter than its character. */
 static size_t text_room(const char *at)
 {
     const char *end = at;
@@ -239,7 +239,7 @@ void mps__json_free(json_value *value)
 {
     while (value) {
         json_value *next = value->next;
-        mps__json_free(value->first); /* as deep as values lie in each other */
+        mps__json_free(value->first); /* recursion is limited by the nesting of values */
         free(value->text);
         free(value->key);
         free(value);

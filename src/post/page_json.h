@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A strict reader of JSON (RFC 8259). A library would serve if it told of each allocation that fails: jansson 2.14 then leaves characters
- * out of a text without an error. */
+/* A strict reader of JSON (RFC 8259). A library would do if it reported each failed allocation:
+ * jansson 2.14 then silently drops characters of a text. */
 #ifndef MPS_POST_PAGE_JSON_H
 #define MPS_POST_PAGE_JSON_H
 
@@ -17,7 +17,7 @@ typedef enum json_type {
     JSON_OBJECT
 } json_type;
 
-/* A value, in a list or an object with its next one. */
+/* A value; in a list or an object it has a next one. */
 typedef struct json_value json_value;
 struct json_value {
     json_type type;
@@ -28,23 +28,23 @@ struct json_value {
     size_t count; /* of a list or an object */
 };
 
-/* Where and why a text is no JSON. */
+/* Where and why a text is no valid JSON. */
 typedef struct json_error {
     int line;
-    const char *why; /* NULL: no memory */
+    const char *why; /* NULL: memory is exhausted */
 } json_error;
 
-/* Read a text that ends with 0. @return NULL with an error */
+/* Read a 0-terminated text. @return NULL with an error */
 json_value *mps__json_read(const char *text, json_error *error);
 void mps__json_free(json_value *value);
 
-/* All of these take NULL for a value that is not there. */
+/* All of these accept NULL for a missing value. */
 const json_value *mps__json_get(const json_value *object, const char *key);
 const json_value *mps__json_at(const json_value *list, size_t index);
 size_t mps__json_count(const json_value *list);
-/* A number; NAN: it is none. */
+/* A number; NAN: the value is no number. */
 double mps__json_number(const json_value *value);
-/* A text; NULL: it is none. */
+/* A text; NULL: the value is no text. */
 const char *mps__json_text(const json_value *value);
 bool mps__json_true(const json_value *value);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The film, packed into the bytes that there are: first with all that the frames hold, then with less. */
+/* Packs the film into the available bytes: first with all data of the frames, then with less. */
 #include "page_film.h"
 #include <errno.h>
 #include <math.h>
@@ -17,28 +17,28 @@ enum {
     BLOCKS = 24
 };
 
-/* What is packed. */
+/* Which data are packed. */
 typedef struct plan {
     int32_t bits;
     bool coarse;   /* values in steps of four codes */
-    int64_t every; /* particle */
-    int64_t step;  /* frames; those about peaks are all shown */
-    bool peaks;    /* they are */
+    int64_t every; /* every n-th particle */
+    int64_t step;  /* every n-th frame; frames about peaks are all shown */
+    bool peaks;    /* show frames about peaks */
 } plan;
 
-/* A film that is being packed. */
+/* A film being packed. */
 typedef struct packing {
     const film *film;
     plan plan;
     int64_t shown;         /* particles */
     int64_t frames, *pick; /* of the film: [frames] numbers in the run */
-    int64_t
-        block; /* frames in a block, but for the first, which has one: the first picture comes at once */
+    /* frames per block; the first block has one, so that the first picture is shown immediately */
+    int64_t block;
     double quantum; /* [m] */
     codec codec;
     uint16_t *q;          /* [dim*shown] */
     unsigned char *value; /* [values*shown] */
-    int32_t values;       /* pressure, speed, and the pocket where there is one */
+    int32_t values;       /* pressure, speed, and the pocket if there is one */
     film_frame frame;
     FILE *out;
     int64_t bytes, most, done; /* of base64; frames */
@@ -60,7 +60,8 @@ static unsigned char value_code(const packing *p, const page_scale *scale, doubl
     return p->plan.coarse ? (unsigned char)(1 + (code - 1) / 4 * 4) : code;
 }
 
-/* Integers of all particles in the frame that has been read; what is not in it stays where it was, with values 0. */
+/* Quantise all particles of the frame that was read; missing ones keep their position, with values
+ * 0. */
 static void quantise(packing *p, const film_pose *pose)
 {
     const film *f = p->film;
@@ -116,9 +117,9 @@ static mps_status pack_frames(packing *p)
     return status;
 }
 
-/* ---- what does not change ---------------------------------------------------------------------------------------- */
+/* ---- fixed parts ----------------------------------------------------------------------------- */
 
-/* The ids of the particles that are shown, as integers of four bytes, the lowest first. */
+/* The ids of the shown particles as little-endian integers of four bytes. */
 static mps_status pack_ids(packing *p)
 {
     const film *f = p->film;
@@ -152,7 +153,7 @@ static bool wall_of_tank(const film *f, int64_t place)
     return part >= 0 && part < FILM_PARTS && f->part_of_tank[(int)part];
 }
 
-/* Bounds of the walls that stand. @return how many */
+/* Bounds of the fixed walls. @return their number */
 static int64_t wall_bounds(const film *f, double lo[3], double *quantum)
 {
     double hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -171,7 +172,8 @@ static int64_t wall_bounds(const film *f, double lo[3], double *quantum)
     return count;
 }
 
-/* Walls that stand, as one frame of the codec, value 1: of the tank itself; those of a wide tank are thinned. */
+/* Fixed walls as one frame of the codec; value 1: walls of the tank itself; those of a wide tank
+ * are thinned. */
 static mps_status pack_walls(packing *p)
 {
     const film *f = p->film;
@@ -250,7 +252,7 @@ static void write_edges(FILE *out, const page_run *run)
     fputs("],\n", out);
 }
 
-/* Direction of the bow in the tank, of a ship in 3-D. */
+/* Direction of the bow in the tank, for a ship in 3-D. */
 static void write_bow(FILE *out, const film *f)
 {
     static const struct {
@@ -258,8 +260,9 @@ static void write_bow(FILE *out, const film *f)
     } ways[] = {{"x", "[1, 0, 0]"}, {"z", "[0, 0, 1]"}, {"-x", "[-1, 0, 0]"}, {"-z", "[0, 0, -1]"}};
     const char *bow = mps__page_input(f->run, "motion.forward");
     if (!bow) bow = mps__page_input(f->run, "body.forward");
+    /* the default of the key */
     if (!bow && (mps__page_input(f->run, "motion.axes") || mps__page_input(f->run, "body.axes")))
-        bow = "x"; /* the default of the key */
+        bow = "x";
     for (size_t k = 0; bow && f->dim == 3 && k < sizeof ways / sizeof *ways; k++)
         if (strcmp(ways[k].name, bow) == 0) fprintf(out, "\"bow\": %s,\n", ways[k].way);
 }
@@ -294,9 +297,9 @@ static void write_head(const packing *p)
     fputs("</script>\n", out);
 }
 
-/* ---- plans ------------------------------------------------------------------------------------------------------- */
+/* ---- plans ----------------------------------------------------------------------------------- */
 
-/* Numbers of the frames that a plan shows. @param pick  NULL: only count them */
+/* Numbers of the frames of a plan. @param pick  NULL: only count them */
 static int64_t pick_frames(const film *f, const plan *how, int64_t *pick)
 {
     int64_t count = 0, others = 0;
@@ -343,15 +346,15 @@ static mps_status cannot_write(const film *f)
                           f->run->folder, strerror(errno));
 }
 
-/* Nothing of what was packed stays. */
+/* Discard all packed data. */
 static mps_status empty(const film *f, FILE *out)
 {
     rewind(out);
     return ftruncate(fileno(out), 0) == 0 ? MPS_OK : cannot_write(f);
 }
 
-/* Pack by a plan, in place of what `out` holds.
- * @param share  bytes of the whole film, of those that there are: above 1 it does not fit */
+/* Pack by a plan, replacing the contents of `out`.
+ * @param share  size of the whole film over the available bytes: above 1 it does not fit */
 static mps_status try_plan(const film *f, const plan *how, int64_t bytes, FILE *out, double *share)
 {
     packing p;
@@ -371,7 +374,8 @@ static mps_status try_plan(const film *f, const plan *how, int64_t bytes, FILE *
     return status;
 }
 
-/* Less than that plan: first precision, then particles, then frames. @return false: there is nothing left to leave out */
+/* Reduce a plan: first precision, then particles, then frames.
+ * @return false: it cannot be reduced further */
 static bool less(const film *f, plan *how, double share)
 {
     if (how->bits == FINE) {

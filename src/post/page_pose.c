@@ -27,7 +27,8 @@ static bool is_tank_wall(const film_frame *s, int64_t i, double part)
     return (int)s->kind[i] == FILM_WALL && (part < 0 || s->part[i] == part);
 }
 
-/* The largest part whose name begins with "tank": one wall of it may be a point short of three; -1: any wall. */
+/* The part of the tank (its name begins with "tank") with most wall particles, at least three; -1:
+ * any wall. */
 static double tank_part(const film_frame *s)
 {
     double best = -1;
@@ -44,7 +45,7 @@ static double tank_part(const film_frame *s)
     return best;
 }
 
-/* The wall particle for which `measure` is largest. */
+/* The wall particle with the largest `measure`. */
 static int64_t furthest(const film_frame *s, double part,
                         double (*measure)(const double *x, void *), void *user)
 {
@@ -69,7 +70,7 @@ static double from_first(const double *x, void *user)
     return dot(a, a);
 }
 
-/* Square of the area that a point spans with the first two. */
+/* Square of the area of the triangle of a point and the first two. */
 static double from_line(const double *x, void *user)
 {
     const film *f = user;
@@ -102,7 +103,7 @@ void mps__pose_choose(film *f, const film_frame *s)
         memcpy(f->corner[2], f->corner[0], sizeof f->corner[2]);
         f->corner[2][2] += sqrt(from_first(f->corner[1], f));
     }
-    if (!(from_line(f->corner[2], f) > 0)) f->reference[0] = -1; /* all in one line */
+    if (!(from_line(f->corner[2], f) > 0)) f->reference[0] = -1; /* all are collinear */
     for (int k = 0; k < 3; k++) {
         const double lab[3] = {f->corner[k][0], f->corner[k][1], f->corner[k][2]};
         mps__film_to_tank(&f->start, lab, f->corner[k]);
@@ -124,7 +125,7 @@ void mps__pose_start(film *f)
     memcpy(f->start.shift, value + 9, sizeof f->start.shift);
 }
 
-/* Three unit vectors from three points, as columns. */
+/* Three orthonormal vectors from three points, as columns. */
 static void axes(double (*corner)[3], double out[9])
 {
     double a[3], b[3], n[3];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The folder of a run, read back. */
+/* Reads the folder of a run. */
 #include "page_read.h"
 #include "run_file.h"
 #include <errno.h>
@@ -32,7 +32,7 @@ char *mps__page_path(const char *folder, const char *name)
     return path;
 }
 
-/* Bytes of an open file, -1 with errno. */
+/* Size of an open file, -1 with errno. */
 static long size_of(FILE *file)
 {
     if (fseek(file, 0, SEEK_END) != 0) return -1;
@@ -59,7 +59,7 @@ mps_status mps__page_file(const page_run *r, const char *path, int64_t most, cha
     *out = NULL;
     mps_status status = mps__page_open(r, path, &file);
     if (status != MPS_OK) return status;
-    setvbuf(file, NULL, _IONBF, 0); /* it is read at once */
+    setvbuf(file, NULL, _IONBF, 0); /* it is read in one call */
     const long length = size_of(file);
     if (length < 0)
         status = mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
@@ -83,7 +83,7 @@ mps_status mps__page_file(const page_run *r, const char *path, int64_t most, cha
     return status;
 }
 
-/* ---- summary.json ------------------------------------------------------------------------------------------------ */
+/* ---- summary.json ---------------------------------------------------------------------------- */
 
 double mps__page_number(const page_run *r, const char *key)
 {
@@ -113,7 +113,7 @@ static const char *text_in(const json_value *object, const char *key)
     return text ? text : "";
 }
 
-/* Three numbers. @return false if there are none */
+/* Three numbers. @return false: missing */
 static bool vector_in(const json_value *object, const char *key, double out[3])
 {
     const json_value *list = mps__json_get(object, key);
@@ -170,7 +170,7 @@ mps_status mps__page_summary_read(page_run *r)
     return status;
 }
 
-/* ---- the series of frames ---------------------------------------------------------------------------------------- */
+/* ---- the series of frames -------------------------------------------------------------------- */
 
 static void unescape(char *text)
 {
@@ -188,7 +188,7 @@ static void unescape(char *text)
     *out = '\0';
 }
 
-/* Cut the value of an attribute out of a tag; NULL: it is not there. */
+/* Find the value of an attribute of a tag, and terminate it; NULL: missing. */
 static char *attribute(char *tag, const char *name, char **end)
 {
     char *value = strstr(tag, name);
@@ -231,7 +231,7 @@ static mps_status read_series(page_run *r, const char *name)
     char *tag = text ? strstr(text, "<DataSet ") : NULL;
     while (status == MPS_OK && tag) {
         char *end = strchr(tag, '>');
-        if (!end) break; /* half a tag */
+        if (!end) break; /* an incomplete tag */
         *end = '\0';
         status = add_frame(r, tag, path, first);
         tag = strstr(end + 1, "<DataSet ");
@@ -241,7 +241,7 @@ static mps_status read_series(page_run *r, const char *name)
     return status == MPS_E_NAME ? MPS_OK : status;
 }
 
-/* The frame of all frames before the one about a peak at the same time, which is left out then. */
+/* At equal times the regular frame precedes the one about a peak, which is then dropped. */
 static int compare_stamps(const void *a, const void *b)
 {
     const page_stamp *x = a, *y = b;
@@ -265,7 +265,7 @@ mps_status mps__page_peaks_read(page_run *r)
     return status;
 }
 
-/* ---- all of it --------------------------------------------------------------------------------------------------- */
+/* ---- the whole folder ------------------------------------------------------------------------ */
 
 static mps_status read_table(page_run *r, const char *name, bool wanted, page_table *out)
 {
@@ -287,7 +287,7 @@ static mps_status read_case(page_run *r)
     return status == MPS_E_NAME ? MPS_OK : status;
 }
 
-/* The summary of a run that is not finished is older than its rows. */
+/* The summary of an unfinished run is older than its rows. */
 static void take_last_time(page_run *r)
 {
     if (strcmp(mps__page_string(r, "status"), "unfinished") != 0 || r->probes.rows == 0) return;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The folder of a run, read back: summary.json, tables (*.csv) and the series of frames. */
+/* Reads the folder of a run: summary.json, tables (*.csv) and the series of frames. */
 #ifndef MPS_POST_PAGE_READ_H
 #define MPS_POST_PAGE_READ_H
 
@@ -9,9 +9,9 @@
 #include <stdint.h>
 #include <stdio.h>
 
-/* Where the text of the first error goes. */
+/* Destination of the first error text. */
 typedef struct page_errors {
-    char *text; /* NULL: nowhere */
+    char *text; /* NULL: discarded */
     size_t size;
 } page_errors;
 
@@ -23,19 +23,19 @@ typedef struct page_table {
     double *value;       /* [rows*columns] */
 } page_table;
 
-/* What a column of probes.csv is, from summary.json; texts belong to the summary. */
+/* A column of probes.csv as described in summary.json, which owns the texts. */
 typedef struct page_column {
     const char *name, *unit, *type, *about, *part; /* never NULL */
     double at[3], normal[3], diameter;
     bool has_place, has_normal;
-    int32_t place; /* in probes.csv; -1: not there */
+    int32_t place; /* index in probes.csv; -1: missing */
 } page_column;
 
 /* A frame of the series. */
 typedef struct page_stamp {
     double t;
     char *path;
-    bool peak; /* of peaks.pvd */
+    bool peak; /* from peaks.pvd */
 } page_stamp;
 
 typedef struct page_run {
@@ -46,46 +46,49 @@ typedef struct page_run {
     int32_t columns;
     page_column *column;
     int64_t frames;
-    page_stamp *frame; /* [frames]; a series of none is allowed */
-    char *text;        /* case.yaml, or NULL */
-    const struct mps_stats_config
-        *impacts; /* constants that the page is made with; NULL: the run's */
+    page_stamp *frame;                      /* [frames]; may be empty */
+    char *text;                             /* case.yaml, or NULL */
+    const struct mps_stats_config *impacts; /* constants for the page; NULL: those of the run */
 } page_run;
 
 /* Keep the text of an error. @return status */
 mps_status mps__page_fail(page_errors *e, mps_status status, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* "<folder>/<name>"; NULL without memory. The caller frees it. */
+/* "<folder>/<name>"; NULL: memory is exhausted. The caller frees it. */
 char *mps__page_path(const char *folder, const char *name);
-/* Open a file of the folder of a run. MPS_E_NAME without a text: there is no such file;
- * MPS_E_IO: for instance a link out of the folder. */
+/* Open a file of the folder of a run. MPS_E_NAME without a text: the file does not exist; MPS_E_IO:
+ * for instance a link out of the folder. */
 mps_status mps__page_open(const page_run *r, const char *path, FILE **out);
-/* A whole file with a 0 behind it. @param size  of the file, or NULL. @param most  largest size. MPS_E_NAME: there is no such file. */
+/* Read a whole file with a terminating 0.
+ * @param size  of the file, or NULL
+ * @param most  largest size. MPS_E_NAME: the file does not exist. */
 mps_status mps__page_file(const page_run *r, const char *path, int64_t most, char **out,
                           size_t *size);
-/* Read a table; MPS_E_NAME without a text: there is no such file. A last row that is not complete is left out. */
+/* Read a table; MPS_E_NAME without a text: the file does not exist. An incomplete last row is
+ * ignored. */
 mps_status mps__page_table_read(const page_run *r, const char *path, page_table *out);
 void mps__page_table_free(page_table *t);
 /* Column by name, -1: none. */
 int32_t mps__page_table_find(const page_table *t, const char *name);
-/* Value of the last row; NAN where there is none. */
+/* Value of the last row; NAN if there is none. */
 double mps__page_table_last(const page_table *t, int32_t column);
 
-/* Read summary.json alone, of r->folder. MPS_E_NAME without a text: there is none, as of a run that still goes on. */
+/* Read summary.json of r->folder alone. MPS_E_NAME without a text: it does not exist, as in a run
+ * in progress. */
 mps_status mps__page_summary_read(page_run *r);
-/* Read all of the folder but the frames themselves. */
+/* Read the whole folder except the frames themselves. */
 mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e);
-/* Add the frames about peaks to the others, in the order of time. */
+/* Merge the frames about peaks into the others, in the order of time. */
 mps_status mps__page_peaks_read(page_run *r);
 void mps__page_run_free(page_run *r);
 
-/* A column that each run has: an energy, the place of the tank. */
+/* Whether each run has the column: an energy, the position of the tank. */
 bool mps__is_common(const char *name);
 
-/* Members of summary.json; what is missing or of another kind is NAN, "". */
+/* Members of summary.json; NAN or "" if missing or of another kind. */
 double mps__page_number(const page_run *r, const char *key);
 const char *mps__page_string(const page_run *r, const char *key);
-/* Value of an input of the case, as text; NULL: there is none. */
+/* Value of an input of the case, as text; NULL: none. */
 const char *mps__page_input(const page_run *r, const char *key);
 
 #endif

@@ -43,7 +43,7 @@ static int compare(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Two digits, rounded up: a scale one can read. */
+/* Round up to two digits. */
 static double round_up(double value)
 {
     const double power = pow(10, floor(log10(value)) - 1);

@@ -11,7 +11,7 @@ bool mps__page_is_unfinished(const page_run *r)
     return strcmp(mps__page_string(r, "status"), "unfinished") == 0;
 }
 
-/* Above all else, because figures and checks are those of a part of the run. */
+/* Written first, because figures and checks then cover only a part of the run. */
 static void write_unfinished(FILE *out, const page_run *r)
 {
     char a[TEXT_NUMBER], b[TEXT_NUMBER];
@@ -42,7 +42,7 @@ void mps__page_head(FILE *out, const page_run *r)
     fputs("</div>\n<button id=\"theme\" type=\"button\">Dark</button></header>\n", out);
 }
 
-/* ---- film and curves --------------------------------------------------------------------------------------------- */
+/* ---- film and curves ------------------------------------------------------------------------- */
 
 static const char controls[] =
     "<div class=\"controls\" role=\"group\" aria-label=\"Film\">\n"
@@ -100,7 +100,7 @@ void mps__page_stage(FILE *out, const page_run *r, bool has_film, const char *no
           out);
 }
 
-/* ---- forces ------------------------------------------------------------------------------------------------------ */
+/* ---- forces ---------------------------------------------------------------------------------- */
 
 static bool is_force(const page_column *c)
 {
@@ -121,7 +121,7 @@ void mps__page_forces(FILE *out, const page_run *r)
     fputs("</div>\n</section>\n", out);
 }
 
-/* ---- budget ------------------------------------------------------------------------------------------------------ */
+/* ---- energy budget --------------------------------------------------------------------------- */
 
 static double last_of(const page_run *r, const char *name)
 {
@@ -134,7 +134,7 @@ static double change_of(const page_run *r, const char *name)
     return k >= 0 && r->probes.rows > 0 ? last_of(r, name) - r->probes.value[k] : NAN;
 }
 
-/* "- 2.3 J/m went to viscosity and dissipation." Below a thousandth of `all` it is not worth a line. */
+/* "- 2.3 J/m went to viscosity and dissipation." Omitted below a thousandth of `all`. */
 static void item(FILE *out, const page_run *r, double value, double all, const char *text[2])
 {
     char number[TEXT_NUMBER];
@@ -144,7 +144,7 @@ static void item(FILE *out, const page_run *r, double value, double all, const c
             text[value < 0]);
 }
 
-/* The line `viscous` of the budget has both in one sum. */
+/* The line `viscous` of the budget is the sum of both. */
 #define FRICTION                                                                              \
     "was taken by friction in the liquid and at walls: numerical dissipation, which keeps "   \
     "particles in order, and the liquid's own viscosity in one sum. In a tank of metres the " \
@@ -153,7 +153,7 @@ static void item(FILE *out, const page_run *r, double value, double all, const c
 static const struct budget_part {
     const char *name;
     bool change;
-    bool comes;          /* what it counts is on the side of what came */
+    bool comes;          /* counted as an input of energy */
     const char *text[2]; /* of positive and negative values */
 } budget_parts[] = {
     {"wall_work_momentum", false, true, {"came from the walls.", "went to the walls."}},
@@ -189,7 +189,7 @@ static const struct budget_part {
       "was gained without a physical reason (numerical)."}},
 };
 
-/* A part as it stands in the list. */
+/* A term as listed. */
 static double part_of(const page_run *r, const struct budget_part *p)
 {
     return p->change ? change_of(r, p->name) : last_of(r, p->name);
@@ -228,9 +228,9 @@ void mps__page_budget(FILE *out, const page_run *r)
           out);
 }
 
-/* ---- pictures ---------------------------------------------------------------------------------------------------- */
+/* ---- pictures -------------------------------------------------------------------------------- */
 
-/* Write a picture if there is one and it needs no more than what is left of `bytes`. */
+/* Write a picture if it exists and fits into the rest of `bytes`. */
 static mps_status write_picture(FILE *out, const page_run *r, const char *name, int64_t *bytes)
 {
     static const char head[] = "<section id=\"pictures\" aria-labelledby=\"pictures-title\">\n<h2 "

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sketch of the tank with its sensors: a drawing that prints, whose marks are buttons for the curves. */
+/* Sketch of the tank with its sensors: a printable drawing, whose marks are buttons for the
+ * curves. */
 #include "page_parts.h"
 #include "page_text.h"
 #include <math.h>
@@ -8,10 +9,10 @@
 
 enum { WIDTH = 620, MARGIN = 122, TOP = 40, FOOT = 44, TALLEST = 420, APART = 17, MARKS = 200 };
 
-/* Map from metres to the drawing. */
+/* Maps metres to the drawing. */
 typedef struct sketch {
     FILE *out;
-    int axis; /* that goes to the right: x or z */
+    int axis; /* horizontal axis of the drawing: x or z */
     double lo[2], hi[2], scale, width, height;
 } sketch;
 
@@ -50,7 +51,8 @@ static bool is_marked(const page_column *c)
             strcmp(c->type, "pressure") == 0);
 }
 
-/* The horizontal axis along which the sensors stand apart: in the view along it they would hide each other. */
+/* The horizontal axis along which the sensors spread: in the view along it they would hide each
+ * other. */
 static int chosen_axis(const page_run *r)
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -136,7 +138,8 @@ static void write_mark(const sketch *s, const mark *m)
     fputs("</text></g>\n", s->out);
 }
 
-/* The outline of the tank: the first one, if its box is that of the tank; of a file there is none. NULL: it is a box */
+/* The outline of the tank: the first one, if its box is that of the tank; a file has none. NULL: it
+ * is a box */
 static const json_value *tank_outline(const sketch *s, const page_run *r)
 {
     const json_value *polygon = mps__json_at(mps__json_get(r->summary, "outline"), 0);
@@ -224,7 +227,8 @@ static void write_place(FILE *out, const page_run *r, const page_column *c)
     fputs(" m", out);
 }
 
-/* Largest value of a column after the impulse at the start, and its time. What rounding left beside the other value is 0. */
+/* Largest value of a column after the impulse at the start, and its time. Rounding errors relative
+ * to the other value are set to 0. */
 static void write_extremes(FILE *out, const page_run *r, const page_column *c)
 {
     const page_table *t = &r->probes;

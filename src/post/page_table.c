@@ -16,7 +16,7 @@ static mps_status status_of(page_errors *e, const mps__csv *t, mps__csv_error er
     return mps__page_fail(e, MPS_E_IO, "%s", t->why);
 }
 
-/* Columns become rows, as pages use them. */
+/* Transpose columns to rows, as pages use them. */
 static mps_status take_rows(page_errors *e, page_table *out, mps__csv *t)
 {
     const size_t columns = (size_t)t->columns, rows = (size_t)t->rows;

@@ -7,8 +7,8 @@
 
 /* ---- escape ---- */
 
-/* A character of UTF-8 at `text`, and its bytes. @return its number; -1: it is none, and `size`
- * is 1 */
+/* A UTF-8 character at `text`, and its bytes.
+ * @return its code point; -1: invalid, and `size` is 1 */
 static long character_at(const char *text, size_t *size)
 {
     const unsigned char *c = (const unsigned char *)text;
@@ -19,8 +19,8 @@ static long character_at(const char *text, size_t *size)
     return length > 0 ? code : -1;
 }
 
-/* Characters that no text of a page has: control characters, those that change the direction or
- * the line of a text, and what is no character. XML forbids many of them. */
+/* Characters that no text of a page contains: control characters, those that change the direction
+ * or the line of a text, and noncharacters. XML forbids many of them. */
 static bool is_plain(long c)
 {
     if (c < 0x20) return c == '\n' || c == '\t';
@@ -28,8 +28,8 @@ static bool is_plain(long c)
              (c >= 0x2066 && c <= 0x2069) || (c & 0xfffe) == 0xfffe);
 }
 
-/* Write a text with what `escape` has for a character, NULL for none; all that is not plain
- * becomes U+FFFD. */
+/* Write a text, replacing characters by `escape`, NULL: unchanged; all that is not plain becomes
+ * U+FFFD. */
 static void write_text(FILE *out, const char *text, const char *(*escape)(long c))
 {
     size_t size;
@@ -73,7 +73,7 @@ static const char *escape_json(long c)
         return "\\n";
     case '\t':
         return "\\t";
-    case '<': /* "</script>" ends the element, "<!-- <script>" makes it go on behind its end */
+    case '<': /* "</script>" ends the element, "<!-- <script>" extends it beyond its end */
         return "\\u003c";
     case '>':
         return "\\u003e";
@@ -98,7 +98,7 @@ void mps__json(FILE *out, const char *text)
 
 /* ---- numbers ---- */
 
-/* Digits in groups of three, from five digits on. */
+/* Group digits by three, from five digits on. */
 static void group(char *text, size_t size)
 {
     const size_t sign = text[0] == '-', whole = sign + strspn(text + sign, "0123456789");
@@ -118,7 +118,7 @@ const char *mps__whole(char out[TEXT_NUMBER], int64_t value)
     return out;
 }
 
-/* With as many places behind the point as three digits need. */
+/* With as many decimals as three digits need. */
 static void three_digits(char *out, size_t size, double value)
 {
     const double most = fabs(value);
@@ -126,7 +126,7 @@ static void three_digits(char *out, size_t size, double value)
     int places = 3 - before;
     if (places < 0) places = 0;
     if (before > 3) {
-        const double unit = pow(10, before - 3); /* 5,432 stays 5,430: no more than is known */
+        const double unit = pow(10, before - 3); /* 5,432 stays 5,430: no more than three digits */
         value = nearbyint(value / unit) * unit;
     }
     snprintf(out, size, "%.*f", places, value);
@@ -145,14 +145,14 @@ const char *mps__rounded(char out[TEXT_NUMBER], double value)
     else
         three_digits(out, TEXT_NUMBER, value);
     group(out, TEXT_NUMBER);
-    if (out[0] == '-' && out[1]) { /* a minus, not a hyphen */
+    if (out[0] == '-' && out[1]) { /* a minus sign, not a hyphen */
         memmove(out + 3, out + 1, strlen(out));
         for (int k = 0; k < 3; k++) out[k] = "\xe2\x88\x92"[k];
     }
     return out;
 }
 
-/* Units that take a prefix, with what may stand behind them. */
+/* Units that take a prefix, and their suffixes. */
 static bool takes_prefix(const char *unit)
 {
     static const char *const scaled[] = {"Pa", "N", "J", "W"};

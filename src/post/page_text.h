@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Texts of a page: escaped, and numbers as a person would round them. */
+/* Texts of a page: escaping, and rounded numbers. */
 #ifndef MPS_POST_PAGE_TEXT_H
 #define MPS_POST_PAGE_TEXT_H
 
@@ -9,13 +9,13 @@
 
 enum { TEXT_NUMBER = 48 };
 
-/* Each text of a page that is not of this library goes through one of these two: names, titles,
- * units, messages, texts of files. Control characters and bytes that are no UTF-8 become U+FFFD
- * in both. */
+/* Each text of a page that does not come from this library (names, titles, units, messages, texts
+ * of files) must pass one of these two. Control characters and bytes that are not UTF-8 become
+ * U+FFFD in both. */
 
-/* A text of HTML or SVG, also in an attribute. */
+/* Write a text for HTML or SVG, also in an attribute. */
 void mps__html(FILE *out, const char *text);
-/* The text of a JSON string with its quotes, safe within <script>. */
+/* Write a JSON string with its quotes, safe within <script>. */
 void mps__json(FILE *out, const char *text);
 /* "12,437". */
 const char *mps__whole(char out[TEXT_NUMBER], int64_t value);

@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lights of a page: is the run to be trusted, and if not, what to do. Limits are those of docs/explanations/accuracy.md and impacts.md. */
+/* Checks of a page: whether the run can be trusted, and if not, what to do. Limits are those of
+ * docs/explanations/accuracy.md and impacts.md. */
 #include "page_parts.h"
 #include "page_text.h"
 #include <math.h>
 #include <string.h>
 
-/* A rise of more crossing times than this is no impact. */
+/* A rise of more crossing times is not an impact. */
 enum { SMOOTH = 25 };
 
-/* How much peaks of impacts differ between repeats, by their rise in crossing times: standard deviation of a run. Measured in 20 moved
- * tanks with three spacings by scripts/impacts; docs/explanations/impacts.md has the table. */
+/* Scatter of impact peaks between repeats, by their rise in crossing times: standard deviation of a
+ * run. Measured in 20 moved tanks with three spacings by scripts/impacts;
+ * docs/explanations/impacts.md has the table. */
 static const struct {
     double rise, deviation;
 } scatter_of[] = {{1.5, 0.36}, {INFINITY, 0.28}};
@@ -19,7 +21,7 @@ static const double SCATTER_GOOD = 0.2, SCATTER_POOR = 0.5;
 
 typedef enum state { GOOD, LOOK, POOR, UNKNOWN } state;
 
-/* A light. */
+/* A check. */
 typedef struct light {
     const char *name;
     state state;
@@ -112,7 +114,7 @@ static light light_lost(const page_run *r)
 
 /* ---- energy ---- */
 
-/* Energy in the wave: the largest kinetic energy and change of the potential one. */
+/* Energy of the wave: the largest sum of kinetic energy and change of potential energy. */
 static double wave_energy(const page_table *t)
 {
     const int32_t ke = mps__page_table_find(t, "ke"), pe = mps__page_table_find(t, "pe");
@@ -131,8 +133,8 @@ static double last_of(const page_run *r, const char *name)
     return isfinite(v) ? v : 0;
 }
 
-/* In a forced motion energy goes through the liquid for as long as the run takes, and so does what is lost of it: the larger of the energy of
- * the wave and that of the walls is the measure. */
+/* A forced motion passes energy through the liquid during the whole run, and dissipation scales
+ * with it: the reference is the larger of the energy of the wave and the work of the walls. */
 static double measure_of_energy(const page_run *r, bool *walls)
 {
     const double wave = wave_energy(&r->probes), work = largest(&r->probes, "wall_work_momentum");
@@ -140,8 +142,8 @@ static double measure_of_energy(const page_run *r, bool *walls)
     return *walls ? work : wave;
 }
 
-/* A gain becomes random motion, which dissipation and shift take: their sum tells whether the wave keeps its energy. Where the liquid
- * itself is viscous, the numerical part alone does. */
+/* An energy gain becomes random motion, which dissipation and shift remove: their sum shows whether
+ * the wave keeps its energy. If the liquid is viscous, only the numerical part is checked. */
 static light light_energy(const page_run *r)
 {
     light l = {.name = "Energy"};
@@ -169,7 +171,8 @@ static light light_energy(const page_run *r)
 
 /* ---- impacts ---- */
 
-/* Rise of the largest value of a column as a triangle: twice the time from half of it to it [s]; NAN where it is not in the record. */
+/* Rise time of the largest value of a column as a triangle: twice the time from half of it to it
+ * [s]; NAN if the record does not contain it. */
 static double rise_of(const page_table *t, int32_t k, double start, double *at)
 {
     int64_t peak = -1;
@@ -207,7 +210,7 @@ double mps__page_crossing(const page_run *r, double t)
     return s->value[lo * s->columns + k];
 }
 
-/* @param steepest  set: least rise of a peak in crossing times; INFINITY: no sensor has a rise */
+/* @param steepest  out: least rise of a peak in crossing times; INFINITY: no sensor has a rise */
 static light light_impacts(const page_run *r, double *steepest)
 {
     light l = {.name = "Resolution of impacts", .state = UNKNOWN};
@@ -250,7 +253,8 @@ bool mps__page_has_impacts(const page_run *r)
     return steepest <= SMOOTH;
 }
 
-/* One run of an impact: what repeats of it would differ by. Never good, because the run itself does not show it. */
+/* A single run of an impact: the expected scatter of repeats. Never good, because one run does not
+ * show it. */
 static void expect_scatter(light *l, double steepest)
 {
     char number[TEXT_NUMBER], rise[TEXT_NUMBER];

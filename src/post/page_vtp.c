@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of the library, read back. */
+/* Reads frames of the library. */
 #include "page_vtp.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -21,7 +21,7 @@ static const char *host_order(void)
     return first ? "byte_order=\"LittleEndian\"" : "byte_order=\"BigEndian\"";
 }
 
-/* Behind `name="` in a tag that ends at `end`; NULL: it is not there. */
+/* The text after `name="` in a tag that ends at `end`; NULL: missing. */
 static const char *attribute(const char *tag, const char *end, const char *name)
 {
     const char *found = strstr(tag, name);
@@ -41,7 +41,7 @@ static size_t type_size(char type)
     return type == 'b' ? 1 : type == 'f' || type == 'i' ? 4 : 8;
 }
 
-/* An array of numbers in the appended data; other tags are skipped. */
+/* Read a tag of an array in the appended data; other tags are skipped. */
 static bool take_array(vtp_piece *p, const char *tag, const char *end)
 {
     const char *name = attribute(tag, end, " Name=\""), *width = attribute(tag, end, "nents=\"");
@@ -59,7 +59,7 @@ static bool take_array(vtp_piece *p, const char *tag, const char *end)
     return true;
 }
 
-/* Names of parts: numbers of characters. */
+/* Names of parts: character codes. */
 static mps_status take_parts(vtp_frame *f, const char *head)
 {
     const char *tag = strstr(head, "Name=\"part_names\""), *text = tag ? strchr(tag, '>') : NULL;
@@ -98,7 +98,7 @@ static mps_status take_head(vtp_frame *f, vtp_piece *p, const char *head, size_t
     return take_parts(f, head);
 }
 
-/* The first 64 KiB of a file, with a 0 behind them. */
+/* The first 64 KiB of a file, 0-terminated. */
 static mps_status read_head(vtp_frame *f, const char *path, char **head, size_t *size)
 {
     *head = NULL;
@@ -117,7 +117,7 @@ static mps_status read_head(vtp_frame *f, const char *path, char **head, size_t 
     return *head ? MPS_OK : mps__page_fail(f->run->errors, MPS_E_NOMEM, "no memory for the page");
 }
 
-/* Takes `path`. */
+/* Takes ownership of `path`. */
 static mps_status add_piece(vtp_frame *f, char *path)
 {
     char *head = NULL;
@@ -139,7 +139,7 @@ static mps_status add_piece(vtp_frame *f, char *path)
     return status;
 }
 
-/* A piece lies beside the file that names it. */
+/* A piece is in the folder of the file that names it. */
 static char *path_beside(const char *path, const char *name, size_t length)
 {
     const char *slash = strrchr(path, '/');
@@ -228,7 +228,7 @@ static double number_at(const unsigned char *at, char type)
     }
 }
 
-/* Numbers of one array from where the file stands. @return false: the file ends before */
+/* Read numbers of one array from the present file position. @return false: premature end of file */
 static bool read_numbers(FILE *file, char type, int64_t count, double *out)
 {
     unsigned char block[BLOCK];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames as the library writes them: .vtp with appended raw data, and .pvtp, which names the pieces of ranks. */
+/* Reads frames as the library writes them: .vtp with appended raw data, and .pvtp, which lists the
+ * pieces of ranks. */
 #ifndef MPS_POST_PAGE_VTP_H
 #define MPS_POST_PAGE_VTP_H
 
@@ -18,7 +19,7 @@ typedef struct vtp_array {
 typedef struct vtp_piece {
     char *path;
     int64_t points;
-    long base; /* where the data begin in the file */
+    long base; /* offset of the data in the file */
     int32_t arrays;
     vtp_array array[VTP_ARRAYS];
 } vtp_piece;
@@ -28,13 +29,13 @@ typedef struct vtp_frame {
     int64_t points; /* of all pieces */
     int32_t pieces;
     vtp_piece *piece;
-    char *parts; /* names, each with a 0 behind it, and another 0; NULL: none */
+    char *parts; /* names, each 0-terminated, and another 0; NULL: none */
 } vtp_frame;
 
-/* Read what the frame holds. */
+/* Read the header of a frame. */
 mps_status mps__vtp_open(vtp_frame *f, const page_run *run, const char *path);
 void mps__vtp_close(vtp_frame *f);
-/* @return numbers a particle, 0: there is no such array in all pieces */
+/* @return numbers per particle, 0: not all pieces have such an array */
 int32_t mps__vtp_width(const vtp_frame *f, const char *name);
 /* The numbers of all particles, [points*width]; integers up to 2^53 are exact. */
 mps_status mps__vtp_read(const vtp_frame *f, const char *name, double *out);

@@ -14,7 +14,7 @@ mps_status mps_picture_config_init(mps_picture_config *config, size_t size)
     return MPS_OK;
 }
 
-/* Where texts of errors go; what is wrong with the arguments is told there, too. */
+/* Set up error texts, and check the arguments. */
 static mps_status check(const mps_picture_config *config, const char *path, page_errors *e)
 {
     *e = (page_errors){NULL, 0};
@@ -36,7 +36,7 @@ static mps_status check(const mps_picture_config *config, const char *path, page
     return MPS_OK;
 }
 
-/* Edges of the tank that the config has. */
+/* Edges of the tank given in the config. */
 static bool take_edges(scene *s, const mps_picture_config *config)
 {
     if (config->edge_count <= 0) return true;
@@ -90,7 +90,7 @@ mps_status mps__scene_rehearse(mps_sim *sim)
     return status;
 }
 
-/* Gravity and scale of the folder, where the config has none. */
+/* Gravity and scale of the folder, if the config has none. */
 static void complete(mps_picture_config *config, const film *f)
 {
     const double gravity = mps__page_number(f->run, "gravity");
@@ -100,7 +100,7 @@ static void complete(mps_picture_config *config, const film *f)
     config->pressure_hi = f->pressure.hi;
 }
 
-/* Frame number `k` of a folder that was read. */
+/* Write frame number `k` of a folder that was read. */
 static mps_status save_frame(const film *f, int64_t k, mps_picture_config *config, const char *path,
                              page_errors *e)
 {

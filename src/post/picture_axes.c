@@ -26,12 +26,13 @@ void mps__axes_ticks(ticks *t, double lo, double hi, double most)
     for (int i = 0; i < AXES_TICKS; i++) {
         const double value = (first + i) * t->step;
         if (value > hi + 1e-9 * t->step) break;
-        if (i > 0 && !(value > t->value[i - 1])) break; /* far from zero steps are rounding */
+        /* far from zero, steps are below rounding */
+        if (i > 0 && !(value > t->value[i - 1])) break;
         t->value[t->count++] = value;
     }
 }
 
-/* A number as its step needs it, with a minus sign as it is printed. */
+/* Print a number with the digits of its step and a typographic minus sign. */
 static void print_number(char out[32], double value, double step)
 {
     static const char minus[] = "\xe2\x88\x92";
@@ -40,9 +41,9 @@ static void print_number(char out[32], double value, double step)
     snprintf(out, 32, "%s%.*f", value < 0 ? minus : "", decimals < 12 ? decimals : 12, fabs(value));
 }
 
-/* ---- axes -------------------------------------------------------------------------------------------------------- */
+/* ---- axes ------------------------------------------------------------------------------------ */
 
-/* The unit of lengths: the numbers have two or three digits before the point. */
+/* The unit of lengths: numbers with two or three digits before the point. */
 static double length_unit(const plane *v, const char **name)
 {
     const double most = fmax(v->hi[0] - v->lo[0], v->hi[1] - v->lo[1]);
@@ -96,7 +97,7 @@ void mps__axes_draw(canvas *c, const plane *v)
     draw_y(c, v, unit, name);
 }
 
-/* ---- colours ----------------------------------------------------------------------------------------------------- */
+/* ---- colours --------------------------------------------------------------------------------- */
 
 colour mps__axes_colour(const scene *s, int32_t phase, double p)
 {
@@ -117,7 +118,7 @@ static double pressure_unit(const scene *s, const char **name)
     return most >= 2e6 ? 1e6 : most >= 2e3 ? 1e3 : most >= 0.1 ? 1 : 1e-3;
 }
 
-/* A bar row by row, and a tip at the end: larger pressures have its colour. */
+/* A bar line by line, with a tip at the end: larger pressures have its colour. */
 static void draw_bar(canvas *c, const scene *s, int32_t phase, const pixel_box *box)
 {
     const int rows = (int)box->height;
@@ -146,7 +147,7 @@ static void draw_numbers(canvas *c, const scene *s, double x, double top, double
     }
 }
 
-/* Which phase a bar is of, below it. */
+/* The phase of a bar, below it. */
 static void draw_phase(canvas *c, const scene *s, int32_t phase, double x, double foot)
 {
     const text_style style = {.size = 13, .place = TEXT_MIDDLE, .ink = mps__grey};

@@ -12,7 +12,7 @@ enum { TEXT_MOST = 400 };
 const colour mps__ink = {0.13, 0.15, 0.18}, mps__grey = {0.45, 0.47, 0.50},
              mps__pale = {0.80, 0.81, 0.83}, mps__white = {1, 1, 1};
 
-/* The same glyphs on all machines: not hinted, grey. */
+/* Same glyphs on all machines: no hinting, grey antialiasing. */
 static void choose_font(canvas *c)
 {
     cairo_font_options_t *options = cairo_font_options_create();
@@ -158,14 +158,14 @@ void mps__canvas_arrow(canvas *c, double x0, double y0, double x1, double y1, co
 
 /* ---- text ---- */
 
-/* Bytes of the character at `text`, 0: it is not UTF-8 as cairo wants it. */
+/* Bytes of the character at `text`, 0: not UTF-8 as cairo requires. */
 static size_t character(const char *text)
 {
     const unsigned char c = (unsigned char)*text;
     return c < 0x20 || c == 0x7f ? 0 : mps__character(text);
 }
 
-/* Whole characters alone. */
+/* Keep whole characters only. */
 static void clean(char out[TEXT_MOST], const char *text)
 {
     size_t n = 0;
@@ -195,7 +195,7 @@ bool mps__canvas_letters(void)
     const text_style style = {.size = 20, .place = TEXT_LEFT, .ink = {0, 0, 0}};
     canvas c;
     bool dark = false;
-    if (!mps__canvas_create(&c, SIDE, SIDE, 1)) return true; /* no memory is another matter */
+    if (!mps__canvas_create(&c, SIDE, SIDE, 1)) return true; /* memory is checked elsewhere */
     mps__canvas_text(&c, 4, 26, style, 0, "P8");
     mps__canvas_pixels_begin(&c);
     for (int y = 0; y < SIDE; y++)
@@ -257,7 +257,7 @@ static cairo_status_t put(void *file, const unsigned char *data, unsigned size)
     return fwrite(data, 1, size, file) == size ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_WRITE_ERROR;
 }
 
-/* Remove what there is of a file that is not whole; devices stay. */
+/* Remove an incomplete file; devices stay. */
 static void discard(const char *path)
 {
     struct stat about;

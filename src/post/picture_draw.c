@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The layout of a picture: title and time, the particles with axes and sensors, the bar of the colours; in 3-D two views. */
+/* The layout of a picture: title and time, the particles with axes and sensors, the colour bar; in
+ * 3-D two views. */
 #include "picture_axes.h"
 #include "picture_sensors.h"
 #include "picture_space.h"
@@ -18,12 +19,12 @@ enum {
 
 static const colour wall = {0.60, 0.62, 0.65};
 
-/* Where everything is. */
+/* Positions of all elements. */
 typedef struct layout {
     double unit;
     int width, height;
     plane slice;
-    pixel_box space; /* 3-D: the view of the whole; width 0: none */
+    pixel_box space; /* 3-D: the overview; width 0: none */
     double bar_x, bar_top, bar_height;
 } layout;
 
@@ -32,7 +33,7 @@ static int even(double pixels)
     return 2 * (int)ceil(0.5 * pixels);
 }
 
-/* The map of a view as large as a box allows. */
+/* Scale a view to the largest size in a box. */
 static void fit_slice(layout *l, const scene *s, double x, double y, double width, double height)
 {
     plane *v = &l->slice;
@@ -69,7 +70,7 @@ static void lay_plane(layout *l, const scene *s, double room)
     l->height = even(b->y + b->height + BOTTOM * u);
 }
 
-/* The whole above the slice, or beside it where the slice is high. */
+/* The overview is above the slice, or beside it if the slice is high. */
 static void lay_space(layout *l, const scene *s, double room)
 {
     const double u = l->unit, aspect = mps__space_aspect(s),
@@ -104,13 +105,14 @@ static void lay_out(layout *l, const scene *s, int32_t width)
         lay_plane(l, s, room);
 }
 
-/* In 3-D what is about the middle of z, one or two layers, so that baffles and levels between the walls are seen. */
+/* In 3-D, particles around the middle of z, one or two layers, so that baffles and levels between
+ * the walls are visible. */
 static bool is_in_slice(const scene *s, double z)
 {
     return s->dim == 2 || fabs(z - 0.5 * (s->lo[2] + s->hi[2])) <= 0.75 * s->dp;
 }
 
-/* Walls first, so that the fluid at them is seen whole. */
+/* Walls first, so that the fluid beside them is not covered. */
 static void draw_particles(canvas *c, const plane *v, const scene *s)
 {
     const double radius = 0.5 * s->dp * v->scale;
@@ -129,7 +131,7 @@ static void draw_particles(canvas *c, const plane *v, const scene *s)
 static void draw_sensors(canvas *c, const plane *v, const scene *s)
 {
     marks m = {.inside = v->box};
-    m.inside.y -= 24 * c->unit; /* room for names of gauges */
+    m.inside.y -= 24 * c->unit; /* space for names of gauges */
     m.inside.height += 24 * c->unit;
     for (int gauge = 0; gauge < 2; gauge++)
         for (int32_t k = 0; k < s->sensors; k++) {
@@ -149,7 +151,8 @@ static bool is_turned(const scene *s)
     return fabs(s->pose.turn[3]) > 1e-3 || fabs(s->pose.turn[5]) > 1e-3;
 }
 
-/* Where the tank is turned: the direction of gravity in its frame, R^T (0, -1, 0), beside the time. */
+/* If the tank is rotated: the direction of gravity in its frame, R^T (0, -1, 0), beside the
+ * time. */
 static void draw_gravity(canvas *c, const scene *s, double x, double y)
 {
     const text_style style = {.size = 15, .place = TEXT_RIGHT, .ink = mps__grey};
@@ -159,7 +162,7 @@ static void draw_gravity(canvas *c, const scene *s, double x, double y)
     mps__canvas_text(c, x - 16 * c->unit, y + 5 * c->unit, style, 0, "gravity");
 }
 
-/* "t = 1.234 s", on the right; the title has the rest. */
+/* "t = 1.234 s" at the right; the title has the rest. */
 static void draw_head(canvas *c, const scene *s)
 {
     text_style style = {.size = 22, .place = TEXT_RIGHT, .ink = mps__ink};

@@ -10,7 +10,7 @@ static mps_status no_memory(page_errors *e)
     return mps__page_fail(e, MPS_E_NOMEM, "no memory for a picture");
 }
 
-/* Densities, for the names of the bars and for what is rounding. */
+/* Densities, for the names of the bars and for the limit of rounding. */
 static void take_phases(scene *s, const page_run *run)
 {
     const json_value *list = mps__json_get(run->summary, "phases");

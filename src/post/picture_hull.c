@@ -3,9 +3,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double width = 2; /* of a column [dp]: a wall leaves no gap in it */
+static const double width = 2; /* of a column [dp]: walls leave no gap in it */
 
-/* Place of a point in the columns along `axis`. */
+/* Index of a point in the columns along `axis`. */
 static size_t column(const hull *h, int axis, const float x[3])
 {
     size_t at = 0;
@@ -56,7 +56,7 @@ void mps__hull_free(hull *h)
 
 void mps__hull_outwards(const hull *h, const float x[3], double out[3])
 {
-    /* a surface that is steep in all three directions rises by 1.4 widths over a column */
+    /* a surface steep in all three directions rises by 1.4 widths over a column */
     const double near = 1.5 * width * h->s->dp;
     for (int d = 0; d < 3; d++) {
         const size_t at = column(h, d, x);

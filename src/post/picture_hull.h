@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Which walls are the outside of the tank, and where they look. */
+/* Finds the walls on the outside of the tank, and their outward directions. */
 #ifndef MPS_POST_PICTURE_HULL_H
 #define MPS_POST_PICTURE_HULL_H
 
@@ -12,10 +12,11 @@ typedef struct hull {
     float *least[3], *most[3];
 } hull;
 
-/* @return false without memory */
+/* @return false: memory is exhausted */
 bool mps__hull_create(hull *h, const scene *s);
 void mps__hull_free(hull *h);
-/* The sum of the directions in which no wall lies beyond that at x; (0, 0, 0): it stands between others, as a baffle does. */
+/* The sum of the directions in which there is no wall beyond x; (0, 0, 0): an inner wall, such as a
+ * baffle. */
 void mps__hull_outwards(const hull *h, const float x[3], double out[3]);
 
 #endif

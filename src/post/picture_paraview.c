@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A state for ParaView. It is a script, not a .pvsm: a .pvsm names the files by their whole path and lists some thousand properties that
- * change from version to version. */
+/* A state for ParaView. It is a script, not a .pvsm: a .pvsm contains absolute file names and some
+ * thousand properties that change between versions. */
 #include "picture_scene.h"
 #include "run_file.h"
 #include <errno.h>
@@ -100,7 +100,7 @@ static const char head[] =
     "scene.GoToLast()\n"
     "Render()\n";
 
-/* A text of Python between single quotes. */
+/* Write a Python string in single quotes. */
 static void print_text(FILE *file, const char *text)
 {
     fputc('\'', file);
@@ -142,7 +142,7 @@ static void print_phases(FILE *file, const scene *s)
     fputs("]\n\n", file);
 }
 
-/* What differs from run to run comes first, behind the encoding that Python reads in the first two lines. */
+/* The values of the run come first, after the encoding that Python reads in the first two lines. */
 static void print_script(FILE *file, const scene *s, const char *folder)
 {
     const double scale[2] = {s->p_lo, s->p_hi};
@@ -159,7 +159,7 @@ static void print_script(FILE *file, const scene *s, const char *folder)
     fputs(head, file);
 }
 
-/* The folder from the root of the file system; NULL without memory, or where the present folder has no name of usual length. */
+/* The absolute name of a folder; NULL: memory is exhausted, or the name is too long. */
 static char *whole_path(const char *folder)
 {
     enum { PATH_SIZE = 4096 };
@@ -186,7 +186,8 @@ static mps_status write_script(const scene *s, const char *folder, page_errors *
     return status;
 }
 
-/* The box of the scene from the frame of the tank to that of the frames, over all of them: the camera shows all that a tank comes to. */
+/* Transform the box of the scene from the frame of the tank to that of the frames, over all of
+ * them: the camera covers the whole motion. */
 static void sweep_box(scene *s, const film *f)
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};

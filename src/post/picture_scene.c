@@ -45,7 +45,8 @@ bool mps__scene_edges(scene *s, int32_t count)
     return true;
 }
 
-/* All walls, or all fluid where there is no wall; above an open tank the fluid, too, up to a quarter of the height. */
+/* Bounds of all walls, or of all fluid if there is no wall; above an open tank also of the fluid,
+ * up to a quarter of the height. */
 static void find_box(scene *s, int kind)
 {
     const bool known = s->run_lo[1] <= s->run_hi[1];
@@ -81,9 +82,10 @@ bool mps__scene_end(scene *s)
     return s->lo[0] <= s->hi[0];
 }
 
-/* ---- the scale --------------------------------------------------------------------------------------------------- */
+/* ---- the scale ------------------------------------------------------------------------------- */
 
-/* Twice the height of the centre of mass above the lowest particle, times rho g: the depth of a liquid at rest in a box. */
+/* Twice the height of the centre of mass above the lowest particle, times rho g: the pressure at
+ * the depth of a liquid at rest in a box. */
 static double pressure_at_rest(const scene *s, double gravity)
 {
     double most = 0;
@@ -102,7 +104,8 @@ static double pressure_at_rest(const scene *s, double gravity)
     return most;
 }
 
-/* Pressures below this are rounding: a thousandth of rho (g dp + u^2), with the largest density and speed. */
+/* Pressures below this are rounding: a thousandth of rho (g dp + u^2), with the largest density and
+ * speed. */
 static double noise_of(const scene *s, double gravity)
 {
     double density = 0;

@@ -4,7 +4,7 @@
 
 static const text_style style = {.size = 15, .halo = true, .ink = {0.13, 0.15, 0.18}};
 static const colour mark = {
-    0.84, 0.37, 0.00}; /* vermilion, which colour-blind readers tell from blue and green */
+    0.84, 0.37, 0.00}; /* vermilion, which colour-blind readers distinguish from blue and green */
 
 static bool overlap(const pixel_box *a, const pixel_box *b)
 {
@@ -28,7 +28,8 @@ static void take(marks *m, const pixel_box *box)
     if (m->count < MARKS_MOST) m->taken[m->count++] = *box;
 }
 
-/* Write a name with the middle of its box at (x, y), or as near above or below as it is free, and then with a line to its mark. */
+/* Write a name with the middle of its box at (x, y), or at the nearest free height above or below,
+ * then with a line to its mark. */
 static void write_name(marks *m, canvas *c, double x, double y, const double *mark_at,
                        const char *name)
 {

@@ -26,7 +26,7 @@ mps_status mps__scene_pose(mps_sim *sim, int32_t dim, film_pose *out)
     return status;
 }
 
-/* Dummies are not drawn: those of thin plates lie in the liquid of the other side. */
+/* Dummies are not drawn: those of thin plates are in the liquid on the other side. */
 static bool is_drawn(const mps_lease *l, int64_t i)
 {
     return l[KIND].integers[i] == MPS_FLUID || l[KIND].integers[i] == MPS_WALL;
@@ -35,7 +35,8 @@ static bool is_drawn(const mps_lease *l, int64_t i)
 static void take_particle(scene *s, const mps_lease *l, int64_t i, int64_t to)
 {
     double x[3] = {0, 0, 0}, u2 = 0, X[3];
-    /* in single precision, as frames have it, so that a picture of the state is that of its frame */
+    /* rounded to single precision as in frames, so that a picture of the state equals that of its
+     * frame */
     for (int32_t d = 0; d < s->dim; d++) x[d] = (double)(float)l[POSITION].data[i * s->dim + d];
     mps__film_to_tank(&s->pose, x, X);
     for (int d = 0; d < 3; d++) s->x[3 * to + d] = (float)X[d];
@@ -76,7 +77,7 @@ static mps_status lease_all(scene *s, mps_sim *sim, page_errors *e)
     return status;
 }
 
-/* Ids of probes go on where some were removed: the last is not known, so all small ones are tried. */
+/* Ids of probes continue after removals: the last id is not known, so all small ones are tried. */
 static mps_status take_probes(scene *s, const mps_sim *sim, page_errors *e)
 {
     enum { MISSES = 64 };

@@ -7,20 +7,20 @@
 #include <stdlib.h>
 
 enum {
-    FINE = 2,    /* samples along a pixel: their mean has soft edges */
+    FINE = 2,    /* samples per pixel and axis: their mean has soft edges */
     LAYERS = 512 /* in which particles are sorted by depth */
 };
 
-/* What a sample shows; larger depths are nearer to the reader. */
+/* The contents of a sample; larger depths are nearer to the viewer. */
 typedef struct sample {
     float depth, r, g, b;
 } sample;
 
-/* Orthographic: reader's right, up, and towards the reader. */
+/* Orthographic: the viewer's right, up, and towards the viewer. */
 typedef struct camera {
     double right[3], up[3], near[3];
     double lo[3], hi[3]; /* of the box of the scene, in these directions */
-    double scale, x, y;  /* samples a metre; sample of the lower left corner */
+    double scale, x, y;  /* samples per metre; sample of the lower left corner */
 } camera;
 
 typedef struct view {
@@ -70,12 +70,12 @@ static void project(const camera *c, const double x[3], double out[3])
     out[2] = along(c->near, x);
 }
 
-/* ---- spheres ----------------------------------------------------------------------------------------------------- */
+/* ---- spheres --------------------------------------------------------------------------------- */
 
 typedef struct sphere {
-    double x[3], radius; /* as project() says; radius in samples */
+    double x[3], radius; /* as from project(); radius in samples */
     colour ink;
-    bool flat; /* without light: a part of the shell */
+    bool flat; /* without shading: a part of the shell */
 } sphere;
 
 /* Light from the upper left, paler with depth. */
@@ -112,8 +112,9 @@ static void draw_sphere(const view *v, const sphere *ball)
     }
 }
 
-/* The outside of the tank: what looks at the reader alone is left out, the rest is a pale shell, darker below and to the right.
- * @return false: left out */
+/* The outside of the tank: walls that face the viewer only are omitted, the rest is a pale shell,
+ * darker below and at the right.
+ * @return false: omitted */
 static bool dress_wall(const view *v, const hull *h, int64_t i, sphere *ball)
 {
     const scene *s = v->s;
@@ -138,7 +139,7 @@ static bool dress_wall(const view *v, const hull *h, int64_t i, sphere *ball)
     return true;
 }
 
-/* The layer of a particle, of about a spacing; 0 is the one nearest to the reader. */
+/* The layer of a particle, about a spacing deep; 0 is nearest to the viewer. */
 static size_t layer(const view *v, const float x[3])
 {
     const double at[3] = {(double)x[0], (double)x[1], (double)x[2]};
@@ -146,8 +147,8 @@ static size_t layer(const view *v, const float x[3])
     return k > 0 ? (size_t)fmin(k, LAYERS - 1) : 0;
 }
 
-/* The particles by layers, from near to far, so that most of the hidden ones are found hidden
- * before they are shaded; within a layer as in the scene. */
+/* Sort the particles by layer from near to far, so that most hidden ones are discarded before
+ * shading; within a layer the order of the scene is kept. */
 static int64_t *sort_particles(const view *v)
 {
     const scene *s = v->s;
@@ -159,7 +160,7 @@ static int64_t *sort_particles(const view *v)
     return order;
 }
 
-/* One of two passes: the shell, or all else. */
+/* Draw one of two passes: the shell, or all other particles. */
 static void draw_spheres(const view *v, const hull *h, const int64_t *order, bool shell)
 {
     const scene *s = v->s;
@@ -179,8 +180,8 @@ static void draw_spheres(const view *v, const hull *h, const int64_t *order, boo
     }
 }
 
-/* The shell is behind all: at its edge, where it turns towards the reader, it hides nothing either.
- * @return false: no memory */
+/* The shell is drawn behind all: where its edge turns towards the viewer it hides nothing either.
+ * @return false: memory is exhausted */
 static bool draw_all(const view *v, const hull *h)
 {
     int64_t *order = sort_particles(v);
@@ -192,9 +193,9 @@ static bool draw_all(const view *v, const hull *h)
     return true;
 }
 
-/* ---- the view ---------------------------------------------------------------------------------------------------- */
+/* ---- the view -------------------------------------------------------------------------------- */
 
-/* The mean of the samples of a pixel. @return false: all are white, as the sheet is */
+/* The mean of the samples of a pixel. @return false: all are white, as the canvas is */
 static bool find_mean(const view *v, int x, int y, colour *out)
 {
     const sample *row = v->pixel + (size_t)(y * FINE) * (size_t)v->width + (size_t)(x * FINE);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A view of all particles in 3-D: spheres with light and depth, behind the walls that face the reader. */
+/* A view of all particles in 3-D: spheres with shading and depth, behind the walls that face the
+ * viewer. */
 #ifndef MPS_POST_PICTURE_SPACE_H
 #define MPS_POST_PICTURE_SPACE_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What all statistics need: constants and their ranges, structs of the interface, errors, random numbers, quantiles. */
+/* Common parts of statistics: constants and their ranges, structs of the interface, errors, random
+ * numbers, quantiles. */
 #include "statistics.h"
 #include <math.h>
 #include <stdarg.h>
@@ -21,7 +22,7 @@ mps_status mps__stats_fail(const mps_stats_config *config, mps_status status, co
     return status;
 }
 
-/* No version will have larger structs: a size that was never set is mostly beyond. */
+/* No version will have larger structs: an uninitialised size is usually beyond. */
 enum { LARGEST = 4096 };
 
 static bool is_size(size_t size, size_t full)
@@ -83,7 +84,7 @@ mps_status mps_stats_config_init(mps_stats_config *config, size_t size)
 
 /* ---- ranges ---- */
 
-/* How a number may be. */
+/* Ranges of a number. */
 enum { POSITIVE = 1, NOT_NEGATIVE = 2, FINITE = 3, SHARE = 4, UNKNOWN = 8 /* or NAN */ };
 
 typedef struct bound {
@@ -143,7 +144,7 @@ static mps_status check_numbers(const mps_stats_config *c)
     return MPS_OK;
 }
 
-/* A newer program may have set entries that this version does not know. */
+/* A newer program may have set members that this version does not know. */
 static bool has_unknown(const mps_stats_config *c)
 {
     const unsigned char *byte = (const unsigned char *)c;
@@ -217,7 +218,7 @@ double mps__quantile(int64_t n, const double *ascending, double q)
     return ascending[k] + (place - (double)k) * (ascending[k + 1] - ascending[k]);
 }
 
-/* Let values[at] sink until none below it in the heap of n values is larger. */
+/* Sift values[at] down in the heap of n values until no child is larger. */
 static void sink(double *values, int64_t at, int64_t n)
 {
     const double value = values[at];
@@ -230,7 +231,7 @@ static void sink(double *values, int64_t at, int64_t n)
     values[at] = value;
 }
 
-/* Heapsort: qsort() may ask for memory. */
+/* Heapsort: qsort() may allocate memory. */
 void mps__sort(int64_t n, double *values)
 {
     for (int64_t at = n / 2 - 1; at >= 0; at--) sink(values, at, n);
@@ -254,7 +255,8 @@ static double log_gamma(double x)
     return (x - 0.5) * log(x) - x + 0.5 * log(2 * PI) + series - log(product);
 }
 
-/* Continued fraction of I_x(a, b) by the method of Lentz; converges fast for x < (a + 1)/(a + b + 2). */
+/* Continued fraction of I_x(a, b) by the method of Lentz; converges fast for x < (a + 1)/(a + b +
+ * 2). */
 static double beta_fraction(double a, double b, double x)
 {
     const double tiny = 1e-300, enough = 1e-15;
@@ -294,7 +296,7 @@ double mps__beta(double a, double b, double x)
     return 1 - front * beta_fraction(b, a, 1 - x) / b;
 }
 
-/* Newton's steps, kept within bounds that close in. */
+/* Newton's method, with bisection bounds. */
 double mps__beta_inverse(double a, double b, double q)
 {
     double low = 0, high = 1, x = a / (a + b);

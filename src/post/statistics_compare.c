@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two series over the time that both have. They are straight lines between samples, so integrals over the samples of both are exact. */
+/* Compares two series over their common time. They are linear between samples, so integrals over
+ * the samples of both are exact. */
 #include "statistics.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { GRID = 4096 }; /* samples at equal distances, to look for a shift */
+enum { GRID = 4096 }; /* equidistant samples, to search for a shift */
 
-/* The known samples of a series, and where the last look was. */
+/* The finite samples of a series, and the position of the last search. */
 typedef struct lines {
     int64_t n, at;
     double *t, *p;
@@ -18,7 +19,7 @@ mps_status mps_comparison_init(mps_comparison *c, size_t size)
     return mps__stats_init(c, size, NULL, sizeof *c);
 }
 
-/* Value at a time within the samples; times of calls grow. */
+/* Value at a time within the samples; times of successive calls increase. */
 static double value_at(lines *s, double t)
 {
     while (s->at + 2 < s->n && s->t[s->at + 1] <= t) s->at++;
@@ -26,7 +27,7 @@ static double value_at(lines *s, double t)
     return s->p[s->at] + fmin(fmax(f, 0), 1) * (s->p[s->at + 1] - s->p[s->at]);
 }
 
-/* @param least  known samples that are needed */
+/* @param least  finite samples required */
 static mps_status take(const mps_stats_config *config, const char *name, const mps_series *from,
                        int least, lines *s)
 {
@@ -61,13 +62,13 @@ static void note_value(double t, double p, int which, mps_comparison *c)
     }
 }
 
-/* Integral of the square of a straight line from a to b over the unit length. */
+/* Integral of the square of a linear function from a to b over the unit length. */
 static double square(double a, double b)
 {
     return (a * a + a * b + b * b) / 3;
 }
 
-/* The next sample of one of both after t, at most the end. */
+/* The next sample time of either series after t, at most the end. */
 static double next_time(const lines *a, const lines *b, double t, double end)
 {
     double next = end;
@@ -108,7 +109,7 @@ static void find_differences(lines *a, lines *b, mps_comparison *c)
 
 /* ---- shift ---- */
 
-/* Pearson's correlation of a[k] with b[k + lag], where both are. */
+/* Pearson's correlation of a[k] with b[k + lag], where both exist. */
 static double correlate(const double *a, const double *b, int lag)
 {
     const int from = lag < 0 ? -lag : 0, to = lag > 0 ? GRID - lag : GRID;
@@ -127,7 +128,8 @@ static double correlate(const double *a, const double *b, int lag)
     return (ab - sa * sb / n) / sqrt(va * vb);
 }
 
-/* Lag of the largest correlation, to a part of the grid; the smaller one of equals. NAN: none within `most`. */
+/* Lag of the largest correlation, interpolated on the grid; of equal ones the smaller lag. NAN:
+ * none within `most`. */
 static double best_lag(const double *a, const double *b, int most, double *correlation)
 {
     int best = 0;
@@ -145,7 +147,7 @@ static double best_lag(const double *a, const double *b, int most, double *corre
     return curvature < 0 ? best + 0.5 * (left - right) / curvature : best;
 }
 
-/* Take the mean off, so that sums of squares do not lose digits. */
+/* Subtract the mean, so that sums of squares do not lose digits. */
 static void fill_grid(lines *s, double t_first, double step, double *out)
 {
     double mean = 0;
@@ -203,11 +205,11 @@ mps_status mps_series_compare(const mps_stats_config *config, const mps_series *
 
 /* ---- points ---- */
 
-/* Where the points are looked for: steps to each side of the largest shift. */
+/* Search of points: steps to each side of the largest shift. */
 enum { LAGS = 400, POINTS_LEAST = 5 };
 
-/* Pearson's correlation of the points with the lines `shift` later; NAN: fewer than `least`
- * points are in the time of the lines. */
+/* Pearson's correlation of the points with the lines `shift` later; NAN: fewer than `least` points
+ * are in the time of the lines. */
 static double correlate_points(const lines *a, lines *b, double shift, int64_t least)
 {
     double n = 0, ma = 0, mb = 0, aa = 0, bb = 0, ab = 0;
@@ -226,7 +228,7 @@ static double correlate_points(const lines *a, lines *b, double shift, int64_t l
     return n >= (double)least && aa > 0 && bb > 0 ? ab / sqrt(aa * bb) : NAN;
 }
 
-/* The largest correlation within the shifts that are allowed, but not at their ends. */
+/* The largest correlation within the allowed shifts, excluding their ends. */
 static void find_points_shift(const mps_stats_config *config, const lines *a, lines *b,
                               mps_comparison *c)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of the constants of impacts: keys of a case, names and units for people, members of mps_stats_config. */
+/* The table of the constants of impacts: keys of a case, names and units for users, members of
+ * mps_stats_config. */
 #include "page_text.h"
 #include "statistics.h"
 #include <math.h>
@@ -8,7 +9,7 @@
 
 enum { COUNT_MOST = 1000000 };
 
-/* What a member is: a real number, int32_t from 2 or from 0, the seed. */
+/* Type of a member: a real number, int32_t from 2 or from 0, the seed. */
 typedef enum kind { REAL, EVENTS, COUNT, SEED } kind;
 
 static const struct constant {
@@ -93,8 +94,8 @@ mps_status mps__stats_put_sensors(mps_stats_config *config, const char *names)
 
 size_t mps_quantity_write(double value, const char *unit, char *buffer, size_t size)
 {
-    static const char minus[] =
-        "\xe2\x88\x92"; /* of the page; a terminal and a program want a hyphen */
+    /* on the page; a terminal and a program need a hyphen */
+    static const char minus[] = "\xe2\x88\x92";
     char text[TEXT_NUMBER];
     if (!unit || (!buffer && size > 0)) return 0;
     mps__quantity(text, value, unit);

@@ -25,7 +25,7 @@ static double ratio_of(const double *spacing, double order)
     return exp(order * a) * expm1(order * b) / expm1(order * a);
 }
 
-/* NAN: smaller than 0. */
+/* NAN: negative. */
 static double find_order(const double *spacing, double ratio)
 {
     double low = 0, high = 1;
@@ -47,7 +47,8 @@ static double largest_difference(const double *f)
     return fmax(fmax(f[0], f[1]), f[2]) - fmin(fmin(f[0], f[1]), f[2]);
 }
 
-/* The limit by the finest value and each of the others; of two different ones that which is further away. */
+/* The limit from the finest value and each of the others; of two different limits the one further
+ * away. */
 static double find_limit(const double *h, const double *f, double order)
 {
     const double by_second = (f[0] - f[1]) / expm1(order * log(h[1] / h[0]));
@@ -148,7 +149,7 @@ mps_status mps_repeat_find(const mps_stats_config *config, int32_t count, const 
     return MPS_OK;
 }
 
-/* The highest event within `window` of t, NULL if there is none. */
+/* The highest event within `window` of t, NULL: none. */
 static const mps_impact *find_event(const mps_impacts *s, double t, double window)
 {
     const mps_impact *best = NULL;

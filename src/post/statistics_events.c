@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From a signal to events: what lies between two samples is the straight line. */
+/* Finds events in a signal, which is linear between two samples. */
 #include "statistics.h"
 #include <math.h>
 #include <stdlib.h>
@@ -32,7 +32,7 @@ static mps_status copy_known(const mps_stats_config *config, int64_t n, const do
     return MPS_OK;
 }
 
-/* Samples at equal distances from the first on. */
+/* Equidistant samples from the first one on. */
 static mps_status resample(const mps_stats_config *config, mps__signal *s)
 {
     const double most = 1e12, span = (s->t[s->n - 1] - s->t[0]) * config->rate;
@@ -44,7 +44,7 @@ static mps_status resample(const mps_stats_config *config, mps__signal *s)
         const double t = s->t[0] + (double)k / config->rate;
         while (at + 2 < s->n && s->t[at + 1] <= t) at++;
         double f = (t - s->t[at]) / (s->t[at + 1] - s->t[at]);
-        if (f > 1) f = 1; /* the last, by rounding */
+        if (f > 1) f = 1; /* rounding at the last sample */
         out.t[k] = t;
         out.p[k] = s->p[at] + f * (s->p[at + 1] - s->p[at]);
     }
@@ -53,7 +53,7 @@ static mps_status resample(const mps_stats_config *config, mps__signal *s)
     return MPS_OK;
 }
 
-/* y' = p' - w y with y = 0 at the start, exact for straight lines between the samples. */
+/* y' = p' - w y with y = 0 at the start, exact for a signal that is linear between samples. */
 static void high_pass(double frequency, mps__signal *s)
 {
     const double w = 2 * 3.14159265358979323846 * frequency;
@@ -92,15 +92,17 @@ double mps__signal_threshold(const mps_stats_config *config, const mps__signal *
 
 /* ---- one event ---- */
 
-/* Time at which the line between samples k - 1 and k has this value; one of them is below it, the other is not. */
+/* Time at which the line between samples k - 1 and k has this value; one sample is below it, the
+ * other is not. */
 static double crossing(const mps__signal *s, int64_t k, double value)
 {
     const double a = s->p[k - 1], b = s->p[k];
     return s->t[k - 1] + (value - a) / (b - a) * (s->t[k] - s->t[k - 1]);
 }
 
-/* A peak beside sample k in the direction d = -1 or 1, under the lines through the two samples on each side of it: exact for a
- * triangle, and no higher than the sample after a step. False: too few samples. */
+/* A peak adjacent to sample k in the direction d = -1 or 1, below the lines through the two samples
+ * on each side of it: exact for a triangle, and no higher than the sample after a step. False: too
+ * few samples. */
 static bool find_tent(const mps__signal *s, int64_t k, int d, double *rise, double *x)
 {
     const int64_t behind = k - d, next = k + d, far = k + 2 * d;
@@ -114,8 +116,9 @@ static bool find_tent(const mps__signal *s, int64_t k, int d, double *rise, doub
     return true;
 }
 
-/* Vertex of the parabola through a largest sample and its neighbours, not above a triangle. At equal distances the vertex is above the
- * sample by at most an eighth of the larger step down; the same bound holds at others, where a parabola may rise far above its samples. */
+/* Vertex of the parabola through a largest sample and its neighbours, limited by a triangle. For
+ * equidistant samples the vertex is above the sample by at most an eighth of the larger step down;
+ * the same bound is applied to others, where a parabola may overshoot its samples. */
 static void find_peak(const mps__signal *s, int64_t k, mps_impact *e)
 {
     e->peak = s->p[k];
@@ -146,7 +149,7 @@ static void find_slopes(const mps_stats_config *config, const mps__signal *s, in
     while (rise > 0 && !(s->p[rise - 1] < value)) rise--;
     while (decay < s->n && !(s->p[decay] < value)) decay++;
     e->rise = e->decay = NAN;
-    if (!(e->peak > 0)) return; /* a share of it would be above it */
+    if (!(e->peak > 0)) return; /* a fraction of it would be above it */
     if (rise > 0) e->rise = fmax(0, e->t - crossing(s, rise, value)) / (1 - config->share);
     if (decay < s->n) e->decay = fmax(0, crossing(s, decay, value) - e->t) / (1 - config->share);
     e->skewness = e->decay / e->rise;
@@ -163,7 +166,8 @@ static double piece(const mps__signal *s, int64_t k, double u)
     return 0.5 * (above + u) * share * dt;
 }
 
-/* Event whose samples at or above u lie in first .. last, both included, with samples below u around them. */
+/* Describe an event with samples first .. last, inclusive, at or above u, between samples below
+ * u. */
 static mps_impact describe(const mps_stats_config *config, const mps__signal *s, double u,
                            int64_t first, int64_t last)
 {
@@ -182,14 +186,14 @@ static mps_impact describe(const mps_stats_config *config, const mps__signal *s,
 
 /* ---- all events ---- */
 
-/* A list of events, and the one that goes on. */
+/* The list of events, and the open one. */
 typedef struct search {
     const mps_stats_config *config;
     const mps__signal *signal;
     double threshold;
     mps_impact *event;
     int64_t count, capacity, cut;
-    bool open, whole; /* an event goes on; its beginning is in the record */
+    bool open, whole; /* an event is open; its beginning is in the record */
     int64_t first, last;
 } search;
 
@@ -203,7 +207,7 @@ static mps_status grow(search *f)
     return MPS_OK;
 }
 
-/* The event that goes on has ended. */
+/* End the open event. */
 static mps_status close_event(search *f)
 {
     if (!f->open) return MPS_OK;
@@ -217,7 +221,7 @@ static mps_status close_event(search *f)
     return MPS_OK;
 }
 
-/* Sample k is at or above the threshold, the one before it is not, or is not there. */
+/* Sample k is at or above the threshold, the one before it is below or missing. */
 static mps_status cross_up(search *f, int64_t k, double window)
 {
     const mps__signal *s = f->signal;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fits with their bands, values of an exposure, the long term. */
+/* Fits with confidence bands, values of an exposure, long-term values. */
 #include "statistics_fit.h"
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +46,7 @@ double mps_fit_exceedance(const mps_fit *fit, double P)
 
 typedef mps__parameters (*estimator)(int64_t n, const double *y, double *work);
 
-/* Excesses, ascending, and room for resamples; one block. */
+/* Ascending excesses, and workspace for resamples; one allocation. */
 typedef struct sample {
     int64_t n;
     double *y;                     /* [n] */
@@ -68,7 +68,7 @@ static mps_status make_sample(const mps_stats_config *config, int64_t count, sam
     return MPS_OK;
 }
 
-/* n excesses of the fitted distribution, ascending. */
+/* Draw n excesses of the fitted distribution, in ascending order. */
 static void draw(sample *s, const mps_fit *fit, mps__random *random)
 {
     mps_fit excess = *fit;
@@ -78,7 +78,8 @@ static void draw(sample *s, const mps_fit *fit, mps__random *random)
     mps__sort(s->n, s->again);
 }
 
-/* Quantiles q of the deviations from the estimate, mirrored: what resamples have too much, the estimate may have too little of. */
+/* Quantiles q of the deviations from the estimate, mirrored: an overestimate of resamples indicates
+ * an equal underestimate of the fit. */
 static void band(const mps_stats_config *config, int64_t n, double *values, double estimate,
                  double out[2])
 {
@@ -87,7 +88,7 @@ static void band(const mps_stats_config *config, int64_t n, double *values, doub
     out[1] = 2 * estimate - mps__quantile(n, values, 0.5 * (1 - config->confidence));
 }
 
-/* The same for the logarithm of what is positive. */
+/* band() for the logarithm of a positive value. */
 static void log_band(const mps_stats_config *config, int64_t n, double *values, double estimate,
                      double out[2])
 {
@@ -96,8 +97,9 @@ static void log_band(const mps_stats_config *config, int64_t n, double *values, 
     for (int k = 0; k < 2; k++) out[k] = exp(out[k]);
 }
 
-/* By resamples of the fitted distribution. Resamples of the peaks give bands that are too narrow: for 400 samples of 30 peaks (Pareto,
- * x = 0.1) the band of 90 % held the value of 30 peaks in 69 %; corrected for bias and skewness in 74 %; this one in 80 %. */
+/* Parametric bootstrap: resamples of the fitted distribution. Resamples of the peaks give bands
+ * that are too narrow: for 400 samples of 30 peaks (Pareto, x = 0.1) the band of 90 % contained the
+ * value of 30 peaks in 69 %; corrected for bias and skewness in 74 %; this one in 80 %. */
 static void find_bands(const mps_stats_config *config, sample *s, estimator estimate, mps_fit *fit)
 {
     const double u = fit->location;
@@ -257,7 +259,8 @@ mps_status mps_long_term_exceedance(const mps_stats_config *config, int32_t coun
     return MPS_OK;
 }
 
-/* No condition alone exceeds its own value of the exposure more than once; at `high` all of them together do so less than once. */
+/* A bracket of the value: `low` is the lowest location of the fits; `high` is the largest of their
+ * values for all n impacts, which all conditions together exceed less than once. */
 static void long_term_range(int32_t count, const mps_condition *conditions, double time,
                             double *low, double *high)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two parameters from excesses y = P - u: the estimators, without bands. */
+/* Estimators of two parameters from excesses y = P - u, without bands. */
 #ifndef MPS_POST_STATISTICS_FIT_H
 #define MPS_POST_STATISTICS_FIT_H
 
@@ -10,11 +10,11 @@ typedef struct mps__parameters {
     int32_t state; /* MPS_FIT_... */
 } mps__parameters;
 
-/* y: [n] ascending, > 0; work: [n]. By likelihood. */
+/* y: [n] ascending, > 0; work: [n]. Maximum likelihood. */
 mps__parameters mps__weibull(int64_t n, const double *y, double *work);
-/* The same, without `work`. */
+/* Maximum likelihood, without `work`. */
 mps__parameters mps__pareto(int64_t n, const double *y, double *work);
-/* By probability-weighted moments. */
+/* Probability-weighted moments. */
 mps__parameters mps__pareto_moments(int64_t n, const double *y);
 
 #endif

@@ -39,13 +39,13 @@ mps_status mps_panel_mean(const mps_stats_config *config, int32_t cells, int64_t
 
 /* ---- ranks and exceedance ---- */
 
-/* Does event a come after event b in the list of ranks? */
+/* Whether event a is after event b in the order of ranks. */
 static bool ranks_after(const mps_impact *event, int64_t a, int64_t b)
 {
     return event[a].peak != event[b].peak ? event[a].peak < event[b].peak : a > b;
 }
 
-/* Let rank[at] sink until none below it in the heap of n ranks comes after it. */
+/* Sift rank[at] down in the heap of n ranks until no child is after it. */
 static void sink(const mps_impact *event, int64_t *rank, int64_t at, int64_t n)
 {
     const int64_t index = rank[at];
@@ -58,7 +58,7 @@ static void sink(const mps_impact *event, int64_t *rank, int64_t at, int64_t n)
     rank[at] = index;
 }
 
-/* Heapsort: qsort() may ask for memory. */
+/* Heapsort: qsort() may allocate memory. */
 static void sort_ranks(const mps_impact *event, int64_t n, int64_t *rank)
 {
     for (int64_t k = 0; k < n; k++) rank[k] = k;
@@ -85,7 +85,8 @@ static mps_status find_ranks(const mps_stats_config *config, mps_impacts *s)
     return MPS_OK;
 }
 
-/* The true exceedance of the i-th largest of N independent peaks has the distribution beta(i, N - i + 1), whatever that of the peaks is. */
+/* The true exceedance of the i-th largest of N independent peaks has the distribution beta(i, N - i
+ * + 1) for any distribution of peaks. */
 static void find_point_bands(const mps_stats_config *config, mps_impacts *s)
 {
     const int64_t n = s->info.events;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Weibull and generalised Pareto by likelihood. Each leaves one equation for one unknown, because the other parameter follows from it. */
+/* Weibull and generalised Pareto by maximum likelihood. Each reduces to one equation for one
+ * unknown, because the other parameter follows from it. */
 #include "statistics_fit.h"
 #include <math.h>
 
@@ -10,7 +11,8 @@ static mps__parameters none(int32_t state)
 
 /* ---- Weibull ---- */
 
-/* sum z e^(c z)/sum e^(c z) - 1/c - mean z with z = ln(y/y_max) <= 0; grows with c, and is 0 at the most likely one. */
+/* sum z e^(c z)/sum e^(c z) - 1/c - mean z with z = ln(y/y_max) <= 0; increases with c, its root is
+ * the most likely c. */
 typedef struct weibull_point {
     double value, slope, mean_power; /* mean e^(c z) */
 } weibull_point;
@@ -28,7 +30,7 @@ static weibull_point weibull_equation(int64_t n, const double *z, double mean, d
                            s0 / (double)n};
 }
 
-/* Newton's steps, kept between points where the equation is below and above 0. */
+/* Newton's method, bracketed by points where the equation is below and above 0. */
 static double weibull_shape(int64_t n, const double *z, double mean, double start)
 {
     double low = 0, high = INFINITY, c = start;
@@ -66,13 +68,14 @@ mps__parameters mps__weibull(int64_t n, const double *y, double *work)
 
 /* ---- generalised Pareto ---- */
 
-/* With theta = x/s the most likely x is mean ln(1 + theta y). What is left to find is theta > -1/y_max. */
+/* With theta = x/s the most likely x is mean ln(1 + theta y). The remaining unknown is theta >
+ * -1/y_max. */
 typedef struct pareto_point {
     double shape; /* x */
-    double slope; /* of the likelihood over n, by theta */
+    double slope; /* derivative of the likelihood over n, by theta */
 } pareto_point;
 
-/* Below this theta y_max the slope is a series: the formula loses its digits. */
+/* Below this theta y_max the derivative is a series: the formula loses its digits. */
 static const double SMALL = 1e-5;
 
 static double pareto_slope_near_0(int64_t n, const double *y, double theta)
@@ -101,13 +104,14 @@ static pareto_point pareto_equation(int64_t n, const double *y, double theta)
     return (pareto_point){shape, 1 / theta - rate / shape - rate};
 }
 
-/* The unknown of the search is v = ln(1 + theta y_max): theta may be any number above -1/y_max, so may v. */
+/* The unknown of the search is v = ln(1 + theta y_max): theta may be any number above -1/y_max, and
+ * v any number. */
 static double theta_of(const double *y, int64_t n, double v)
 {
     return expm1(v) / y[n - 1];
 }
 
-/* Climb from v until the slope changes its sign. @return false: it does not where x > -1 */
+/* Step from v until the derivative changes its sign. @return false: it does not where x > -1 */
 static bool bracket(int64_t n, const double *y, double v, double *from, double *to)
 {
     const double most = 100;
@@ -121,7 +125,7 @@ static bool bracket(int64_t n, const double *y, double v, double *from, double *
     }
 }
 
-/* Halve the bracket, or follow the chord where it does better (Illinois). */
+/* Bisection, or the secant if it converges faster (Illinois method). */
 static double pareto_root(int64_t n, const double *y, double a, double b)
 {
     double fa = pareto_equation(n, y, theta_of(y, n, a)).slope;
@@ -159,7 +163,8 @@ mps__parameters mps__pareto_moments(int64_t n, const double *y)
     for (int64_t k = 0; k < n; k++)
         likelihood -= shape != 0 ? (1 + 1 / shape) * log1p(fmax(-1, shape * y[k] / scale))
                                  : y[k] / scale;
-    if (!isfinite(likelihood)) likelihood = -INFINITY; /* a peak beyond the end */
+    /* a peak beyond the end of the distribution */
+    if (!isfinite(likelihood)) likelihood = -INFINITY;
     return (mps__parameters){scale, shape, likelihood, MPS_FIT_MOMENTS};
 }
 
@@ -167,12 +172,12 @@ mps__parameters mps__pareto(int64_t n, const double *y, double *work)
 {
     (void)work;
     const mps__parameters start = mps__pareto_moments(n, y);
-    double from, to, v = -2; /* where a peak lies beyond the end of the first guess */
+    double from, to, v = -2; /* if a peak is beyond the end of the first guess */
     if (start.state == MPS_FIT_SAME) return start;
     if (start.shape / start.scale * y[n - 1] > -1) v = log1p(start.shape / start.scale * y[n - 1]);
     if (!bracket(n, y, v, &from, &to)) return start;
     double theta = theta_of(y, n, pareto_root(n, y, from, to));
-    if (theta == 0) theta = 1e-20 / y[n - 1]; /* x/s, not 0/0 */
+    if (theta == 0) theta = 1e-20 / y[n - 1]; /* x/s, avoids 0/0 */
     const double shape = pareto_equation(n, y, theta).shape, scale = shape / theta;
     return (mps__parameters){scale, shape, -(double)n * (log(scale) + shape + 1),
                              MPS_FIT_LIKELIHOOD};

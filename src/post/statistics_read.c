@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constants of the statistics of a run, from its summary.json: those of the case, else what the run itself tells. */
+/* Constants of the statistics of a run, from its summary.json: those of the case, otherwise derived
+ * from the run. */
 #include "page_read.h"
 #include "statistics.h"
 #include <math.h>
@@ -7,11 +8,12 @@
 #include <string.h>
 
 enum { TEXT_ROOM = 640 };
-/* Shares of the record: its begin, where the impulse of the start is no impact, and the window where no period is known. */
+/* Fractions of the record: its start, excluded because of the initial impulse, and the window if no
+ * period is known. */
 static const double START = 0.005, WINDOW = 0.02;
 
-/* The number of an input such as "1.418 s", in SI; NAN: there is none. A text such as "1,25 s"
- * is no number. */
+/* The number of an input such as "1.418 s", in SI; NAN: not found. A text such as "1,25 s" is no
+ * number. */
 static mps_status input_number(const mps_stats_config *config, const page_run *r, const char *key,
                                double *value)
 {
@@ -33,7 +35,7 @@ static double natural_period(const page_run *r)
     return isfinite(period) ? period : NAN; /* infinite without gravity */
 }
 
-/* Those of the case, and what follows from it. */
+/* Constants of the case, and those derived from it. */
 static mps_status take_numbers(const page_run *r, mps_stats_config *c)
 {
     double value;
@@ -61,7 +63,7 @@ mps_status mps__stats_take(const struct page_run *r, double end, mps_stats_confi
     return MPS_OK;
 }
 
-/* Last time of probes.csv, of a run that still goes on; NAN: it has no rows. */
+/* Last time of probes.csv, for a run in progress; NAN: it has no rows. */
 static mps_status read_end(const mps_stats_config *config, const char *folder, double *end)
 {
     mps_table *rows = NULL;
@@ -81,8 +83,9 @@ static mps_status read_folder(const char *folder, mps_stats_config *config)
     mps_status status = mps__page_summary_read(&r);
     double end = mps__page_number(&r, "t_end");
     const bool unfinished = strcmp(mps__page_string(&r, "status"), "unfinished") == 0;
+    /* the summary of an unfinished run is older */
     if (status == MPS_E_NAME || (status == MPS_OK && unfinished))
-        status = read_end(config, folder, &end); /* the summary of such a run is older */
+        status = read_end(config, folder, &end);
     else if (status == MPS_E_NOMEM)
         mps__stats_no_memory(config);
     else if (status != MPS_OK)
@@ -134,7 +137,7 @@ mps_status mps_stats_config_read(const char *folder, mps_stats_config *config)
 int32_t mps_stats_wants(const mps_stats_config *config, const char *name)
 {
     if (!name || !mps__stats_known(config, sizeof *config)) return 0;
-    if (!memchr(config->sensors, '\0', sizeof config->sensors)) return 0; /* no text */
+    if (!memchr(config->sensors, '\0', sizeof config->sensors)) return 0; /* not terminated */
     const size_t length = strlen(name);
     for (const char *at = config->sensors; *at; at += strspn(at, "; ")) {
         const size_t size = strcspn(at, ";");

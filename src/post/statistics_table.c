@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Columns of a CSV file: the time, which grows from row to row, and those that are wanted. */
+/* Columns of a CSV file: the time, which increases from row to row, and the wanted ones. */
 #include "csv.h"
 #include "page_read.h"
 #include "statistics.h"
@@ -10,15 +10,15 @@
 
 struct mps_table {
     mps__csv csv;
-    int32_t columns; /* with the time, which is the first */
-    int32_t *column; /* [columns] their numbers in `csv` */
+    int32_t columns; /* including the time, which is the first */
+    int32_t *column; /* [columns] their indices in `csv` */
     char *label;     /* of a reference, or NULL */
     bool points;
 };
 
-/* Which columns of which file. */
+/* Selected columns of a file. */
 typedef struct choice {
-    const char *folder; /* that the file must be in; NULL: anywhere */
+    const char *folder; /* that must contain the file; NULL: any */
     const char *path;
     int32_t count; /* 0: all columns */
     const char *const *names;
@@ -31,7 +31,7 @@ static mps_status status_of(const mps_stats_config *config, const mps__csv *t, m
     return mps__stats_fail(config, MPS_E_IO, "%s", t->why);
 }
 
-/* Is this the name of column k, with or without its unit? */
+/* Whether this is the name of column k, with or without its unit. */
 static bool has_name(const mps__csv *t, int32_t k, const char *name)
 {
     const size_t length = strlen(t->name[k]), unit = strlen(t->unit[k]);
@@ -41,7 +41,7 @@ static bool has_name(const mps__csv *t, int32_t k, const char *name)
            strncmp(name + length + 1, t->unit[k], unit) == 0 && name[length + 1 + unit] == ']';
 }
 
-/* The number of a column; -1 and a text otherwise. */
+/* The index of a column; -1 and an error text if there is none. */
 static int32_t find_column(const mps_stats_config *config, const mps__csv *t, const char *name)
 {
     int32_t found = -1, count = 0;
@@ -169,7 +169,7 @@ static const char *text_of(const json_value *object, const char *key)
     return text ? text : "";
 }
 
-/* Two columns, the time and the value, for so many rows. @return false: no memory */
+/* Allocate two columns, time and value, with so many rows. @return false: memory is exhausted */
 static bool make_columns(mps_table *t, const json_value *one, size_t rows)
 {
     static const char *const time[2] = {"t", "s"};
@@ -218,7 +218,7 @@ int32_t mps_table_columns(const mps_table *table)
     return table ? table->columns - 1 : 0;
 }
 
-/* Number of a column in the file; -1: there is none. */
+/* Index of a column in the file; -1: none. */
 static int32_t column_at(const mps_table *table, int32_t index)
 {
     return table && index >= -1 && index < table->columns - 1 ? table->column[index + 1] : -1;

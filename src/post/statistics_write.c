@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Statistics as text: events as CSV, everything as JSON. */
+/* Writes statistics as text: events as CSV, everything as JSON. */
 #include "plain.h"
 #include "statistics.h"
 #include <math.h>
@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A text that may be longer than its buffer. */
+/* A text that may exceed its buffer. */
 typedef struct text {
     char *buffer;
     size_t size, length;
@@ -36,7 +36,7 @@ static bool all_there(int32_t count, const char *const *names, const mps_impacts
 
 /* ---- CSV ---- */
 
-/* A name with a comma or a quote stands in quotes. */
+/* A name with a comma or a quote is quoted. */
 static void csv_name(text *out, const char *name)
 {
     if (!strpbrk(name, ",\"\r\n")) {
@@ -48,7 +48,7 @@ static void csv_name(text *out, const char *name)
     put(out, "\"");
 }
 
-/* nan is written without a sign, which the C library may add. */
+/* nan is written without the sign that the C library may add. */
 static void csv_number(text *out, double value)
 {
     if (isnan(value))
@@ -72,7 +72,7 @@ static void csv_event(text *out, const char *name, const mps_impacts *s, int64_t
     put(out, ",%lld,%d\n", (long long)rank, (int)e->unresolved);
 }
 
-/* Place of an event in s->rank, from 1: that list is sorted by peak, then by index. */
+/* Position of an event in s->rank, from 1: that list is sorted by peak, then by index. */
 static int64_t rank_of(const mps_impacts *s, int64_t index)
 {
     int64_t low = 0, high = s->info.events - 1;
@@ -116,7 +116,7 @@ static void json_string(text *out, const char *s)
     put(out, "\"");
 }
 
-/* JSON has no NaN and no infinity. */
+/* JSON has neither NaN nor infinity. */
 static void json_number(text *out, double value)
 {
     if (isfinite(value))

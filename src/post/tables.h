@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tables of a run: places of their columns. */
+/* The tables of a run: indices of their columns. */
 #ifndef MPS_POST_TABLES_H
 #define MPS_POST_TABLES_H
 
@@ -21,7 +21,7 @@ enum {
     "t[s],dt[s],cfl,ppe_iterations,ppe_residual,ppe_divergence,max_speed[m/" \
     "s],lost,crossing_time[s],ppe_solves"
 
-/* Places of the common columns in probes.csv, behind those that were added. */
+/* Indices of the common columns in probes.csv, after the added ones. */
 enum {
     COLUMN_KE = 1,
     COLUMN_TANK,
@@ -37,10 +37,10 @@ enum {
     COLUMN_VOLUME,
     COLUMN_FRICTION,
     COLUMN_LAYERS,
-    COLUMN_COMMON = COLUMN_LAYERS /* number of them */
+    COLUMN_COMMON = COLUMN_LAYERS /* number of common columns */
 };
 
-/* Columns of momentum.csv behind the time, for each axis. */
+/* Columns of momentum.csv after the time, per axis. */
 enum {
     MOMENTUM_TOTAL,
     MOMENTUM_GRAVITY,

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reading tables of numbers. The file is read in blocks; only the columns that are wanted are
- * kept. */
+/* Reads tables of numbers. The file is read in blocks; only the wanted columns are kept. */
 #include "csv.h"
 #include "run_file.h"
 #include <errno.h>
@@ -16,20 +15,20 @@
 
 enum { BLOCK = 1 << 16, LINE_MOST = 1 << 24, SHOWN = 40, FIRST_ROWS = 1024 };
 
-/* A field of a line: its text, without quotes and the blanks around it, ends with a 0. */
+/* A field of a line: its text without quotes and surrounding blanks, 0-terminated. */
 typedef struct field {
     char *text;
-    char *unit; /* of a name; "" for none */
+    char *unit; /* unit of a name; "" for none */
 } field;
 
 struct mps__csv_lines {
     int file;
     char *buffer;
-    size_t size, begin, end; /* of what is read and not yet used */
-    int64_t number;          /* of the last line, from 1 */
-    bool over;               /* the file has no more */
-    bool carriage;           /* the last line ended with CR: an LF belongs to it */
-    bool comment;            /* a line that begins with # stands before the names */
+    size_t size, begin, end; /* capacity of the buffer; range that is not processed yet */
+    int64_t number;          /* number of the last line, from 1 */
+    bool over;               /* end of file reached */
+    bool carriage;           /* the last line ended with CR: a following LF belongs to it */
+    bool comment;            /* a line that begins with # precedes the names */
     char separator;
     int64_t capacity;
     int32_t fields; /* capacity of `field` */
@@ -55,7 +54,7 @@ static mps__csv_error refuse(mps__csv *t, const char *format, ...)
 
 /* ---- lines ---- */
 
-/* Open a regular file. A pipe without a writer would block for ever. */
+/* Open a regular file. Opening a pipe without a writer would block forever. */
 static mps__csv_error open_file(mps__csv *t)
 {
     struct stat s;
@@ -80,7 +79,7 @@ static mps__csv_error open_file(mps__csv *t)
     return CSV_OK;
 }
 
-/* More of the file into the buffer, which may move. One byte of it stays free for a 0. */
+/* Read more of the file into the buffer, which may be reallocated. One byte stays free for a 0. */
 static mps__csv_error fill(mps__csv *t)
 {
     struct mps__csv_lines *r = t->in;
@@ -114,7 +113,7 @@ static bool is_text(mps__csv *t, const char *line, size_t length)
     return false;
 }
 
-/* The next line, without its end; NULL: no more. */
+/* The next line without its line break; NULL: end of file. */
 static mps__csv_error next_line(mps__csv *t, char **line)
 {
     struct mps__csv_lines *r = t->in;
@@ -148,7 +147,7 @@ static bool blank(char c)
     return c == ' ' || c == '\t';
 }
 
-/* The next line that is neither empty nor a comment; NULL: no more. */
+/* The next line that is neither empty nor a comment; NULL: end of file. */
 static mps__csv_error next_text(mps__csv *t, char **line)
 {
     for (;;) {
@@ -165,7 +164,7 @@ static mps__csv_error next_text(mps__csv *t, char **line)
 
 /* ---- fields ---- */
 
-/* What is between quotes, or in brackets of a unit, separates nothing.
+/* Separators between quotes or in the brackets of a unit are ignored.
  * @return whether `c` is inside */
 static bool inside(char c, bool *quoted, char *bracket)
 {
@@ -188,8 +187,8 @@ static char find_separator(const char *line)
     return ' ';
 }
 
-/* The end of the field that begins at `at`. Separators in quotes are part of it, and of a line
- * of names those in brackets; of blanks those before a bracket too: "time [s] surge [m]". */
+/* The end of the field that begins at `at`. Separators in quotes belong to the field; in a line of
+ * names also those in brackets, and blanks before a bracket: "time [s] surge [m]". */
 static char *field_end(char *at, char separator, bool names)
 {
     bool quoted = false;
@@ -203,7 +202,7 @@ static char *field_end(char *at, char separator, bool names)
     return at;
 }
 
-/* Drop the blanks around a text. */
+/* Trim blanks around a text. */
 static char *trimmed(char *text)
 {
     while (blank(*text)) text++;
@@ -212,7 +211,7 @@ static char *trimmed(char *text)
     return text;
 }
 
-/* Drop the blanks around a field, and the quotes of parts of it. */
+/* Trim blanks around a field, and remove the quotes of parts of it. */
 static char *plain_text(char *text)
 {
     bool quoted = false;
@@ -243,8 +242,7 @@ static mps__csv_error add_field(mps__csv *t, int32_t index, char *text)
     return CSV_OK;
 }
 
-/* Divide a line, of which the fields become texts. An empty last field, behind a separator, is
- * none. */
+/* Split a line into 0-terminated fields. An empty field after the last separator is ignored. */
 static mps__csv_error split(mps__csv *t, char *line, bool names, int32_t *count)
 {
     const char separator = t->in->separator;
@@ -271,7 +269,7 @@ static bool is_number(const char *text)
 
 /* ---- names ---- */
 
-/* "roll[deg]", "roll (deg)" or "roll": end the name before the unit. */
+/* Split "roll[deg]", "roll (deg)" or "roll" into name and unit. */
 static void divide_name(field *f, bool round)
 {
     const size_t length = strlen(f->text);
@@ -279,7 +277,7 @@ static void divide_name(field *f, bool round)
     while (open > 0 && blank(f->text[open - 1])) open--;
     const size_t end = open;
     const char close = end > 0 ? f->text[end - 1] : '\0';
-    if (close != ']' && (close != ')' || !round)) { /* a bracket that does not end is no unit */
+    if (close != ']' && (close != ')' || !round)) { /* an unclosed bracket is no unit */
         char *bracket = strchr(f->text, '[');
         if (bracket && bracket > f->text) *bracket = '\0';
         return;
@@ -324,7 +322,7 @@ static mps__csv_error read_names(mps__csv *t)
     TRY(next_text(t, &line));
     if (!line) return refuse(t, "%s: has no line of names", t->path);
     t->in->separator = find_separator(line);
-    if (t->in->separator == ' ') /* tabs are separators of their own */
+    if (t->in->separator == ' ') /* tabs separate fields on their own */
         for (char *c = line; *c; c++) *c = *c == '\t' ? ' ' : *c;
     TRY(split(t, line, true, &count));
     if (count == 0) return refuse(t, "%s: has no line of names", t->path);
@@ -405,7 +403,8 @@ mps__csv_error mps__csv_read(mps__csv *t)
         if (!line) return CSV_OK;
         for (char *c = line; t->in->separator == ' ' && *c; c++) *c = *c == '\t' ? ' ' : *c;
         TRY(split(t, line, false, &count));
-        const bool empty = count == t->columns - 1 && !t->wanted[count]; /* the last field */
+        /* the last field may be empty */
+        const bool empty = count == t->columns - 1 && !t->wanted[count];
         if (count != t->columns && !empty) return refuse_count(t, count);
         TRY(reserve(t));
         for (int32_t k = 0; k < t->columns; k++)
@@ -417,7 +416,7 @@ mps__csv_error mps__csv_read(mps__csv *t)
 void mps__csv_free(mps__csv *t)
 {
     for (int32_t k = 0; k < t->columns; k++) {
-        if (t->name) free(t->name[k]); /* the caller may have taken them */
+        if (t->name) free(t->name[k]); /* the caller may own them now */
         if (t->unit) free(t->unit[k]);
         free(t->value[k]);
     }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The one place where the locale of the calling thread is replaced. */
+/* The only file that replaces the locale of the calling thread. */
 #include "plain.h"
 #undef vsnprintf
 #undef vfprintf
@@ -10,7 +10,7 @@
 #include <stdint.h>
 #include <stdlib.h>
 
-/* glibc and musl have this locale ready: it costs no memory. */
+/* glibc and musl have this locale built in: it needs no memory. */
 static locale_t begin(locale_t *before)
 {
     const locale_t c = newlocale(LC_ALL_MASK, "C", (locale_t)0);

@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers and letters as in the locale "C", whatever setlocale() of the application says:
- * "1.5", never "1,5". The build includes this header in front of each source file of libmps and
- * libmps_case. From there on printf(), strtod() and the functions that depend on the letters of
- * a locale are the ones below, so that no file has to remember it. The locale of the
- * application stays as it is: it is replaced during a single call only, in plain.c, and in the
- * calling thread only. Callbacks of the application have their own locale. */
+/* Numbers and letters as in the locale "C", independent of setlocale() of the application: "1.5",
+ * never "1,5". The build includes this header before each source file of libmps and libmps_case:
+ * printf(), strtod() and the functions of letters are then those below. plain.c replaces the locale
+ * during a single call and in the calling thread only; the locale of the application and of its
+ * callbacks stays unchanged. */
 #ifndef MPS_TEXT_PLAIN_H
 #define MPS_TEXT_PLAIN_H
 
@@ -14,7 +13,8 @@
 #include <stdio.h>
 #include <strings.h>
 
-/* As those of C. Where the locale "C" cannot be had: -1 with errno ENOMEM, and an empty text. */
+/* As the functions of C. If the locale "C" is not available: -1 with errno ENOMEM, and an empty
+ * text. */
 int mps__vsnprintf(char *buffer, size_t size, const char *format, va_list list)
     __attribute__((format(printf, 3, 0)));
 int mps__snprintf(char *buffer, size_t size, const char *format, ...)
@@ -24,24 +24,23 @@ int mps__vfprintf(FILE *file, const char *format, va_list list)
 int mps__fprintf(FILE *file, const char *format, ...) __attribute__((format(printf, 2, 3)));
 int mps__printf(const char *format, ...) __attribute__((format(printf, 1, 2)));
 int mps__sscanf(const char *text, const char *format, ...) __attribute__((format(scanf, 2, 3)));
-/* As strtod(). Where the locale "C" cannot be had: 0, *end is `text`. */
+/* As strtod(). If the locale "C" is not available: 0, *end is `text`. */
 double mps__strtod(const char *text, char **end);
 
-/* Letters, digits and blanks of ASCII; other bytes are none. */
+/* ASCII letters, digits and blanks; other bytes are none of them. */
 int mps__lower(int c);
 int mps__upper(int c);
 int mps__is_digit(int c);
 int mps__is_letter(int c);
 int mps__is_blank(int c);
-/* As strcasecmp(): 'I' and 'i' are one letter, in Turkish too. */
+/* As strcasecmp(): 'I' and 'i' are equal, in a Turkish locale too. */
 int mps__compare_letters(const char *a, const char *b, size_t most);
 
-/* Bytes of the character of UTF-8 at `text`; 0: there is none, as at a byte of Latin-1. */
+/* Number of bytes of the UTF-8 character at `text`; 0: invalid, for example a byte of Latin-1. */
 size_t mps__character(const char *text);
-/* What a text of JSON has for the first character of `text`, '<' escaped too, so that no
- * "</script>" ends an element of a page. Bytes that are no UTF-8, as of the name of a file,
- * become U+FFFD.
- * @return bytes of `text`, 1 or more */
+/* Write the first character of `text` for a JSON string. '<' is escaped too, so that no "</script>"
+ * ends an element of a page. A byte that is not UTF-8, as in a file name, becomes U+FFFD.
+ * @return bytes of `text` that were read, 1 or more */
 size_t mps__json_character(const char *text, char out[8]);
 
 #undef vsnprintf
@@ -60,7 +59,7 @@ size_t mps__json_character(const char *text, char out[8]);
 #define snprintf             mps__snprintf
 #define vfprintf             mps__vfprintf
 #define fprintf              mps__fprintf
-#define printf(...)          mps__printf(__VA_ARGS__) /* not that of an attribute */
+#define printf(...)          mps__printf(__VA_ARGS__) /* except in an attribute */
 #define sscanf               mps__sscanf
 #define strtod               mps__strtod
 #define tolower              mps__lower

@@ -8,7 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Both without links. */
+/* Both names have their links resolved. */
 static bool is_below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
@@ -34,7 +34,7 @@ char *mps__run_name(const char *folder, const char *path, const char **why)
     return NULL;
 }
 
-/* Not blocking: a pipe that nothing writes to would wait for ever. */
+/* Non-blocking: opening a pipe without a writer would wait forever. */
 static FILE *open_regular(const char *path, int flags, const char **why)
 {
     struct stat status;

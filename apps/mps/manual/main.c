@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps_manual mps.1|mps-case.5|completion FILE: write a manual page for scdoc, or the words of the completion. */
+/* mps_manual mps.1|mps-case.5|completion FILE: write a manual page for scdoc, or the words of the
+ * completion. */
 #include "manual.h"
 #include <string.h>
 

@@ -6,7 +6,7 @@
 #include <mps/mps.h>
 #include <string.h>
 
-/* A text in which no character is markup. */
+/* Write a text with its markup characters escaped. */
 static void put(FILE *out, const char *text)
 {
     bool first = false;
@@ -24,7 +24,7 @@ static void put_bold(FILE *out, const char *text)
     fputc('*', out);
 }
 
-/* With a capital, as a sentence begins. */
+/* Write a text with an initial capital. */
 static void put_sentence(FILE *out, const char *text)
 {
     fputc(toupper((unsigned char)text[0]), out);
@@ -133,7 +133,9 @@ static const char CASE_EXAMPLE[] =
     "sensors:\n  P1: {wall: 0 50 mm}\n  eta\\_left: {gauge: 1 dp}\nrun: {until: 5.4 s}\n```\n\n"
     "More of them: 'mps list cases', 'mps init NAME'.\n\n";
 
-/* A kind of quantity that has units of its own: of "inertia, 1 to 6" and "damping or a share" the first word. @return false: none */
+/* A kind of quantity that has units of its own: of "inertia, 1 to 6" and "damping or a share" the
+ * first word.
+ * @return false: none */
 static bool find_kind(int32_t index, mps_case_key *k)
 {
     static const char share[] = " or a share", percent[] = ", %";
@@ -150,7 +152,7 @@ static bool find_kind(int32_t index, mps_case_key *k)
     return !strstr(k->kind, " or ") || strstr(k->kind, "viscosity");
 }
 
-/* Each kind once. */
+/* Write each kind once. */
 static void put_units(FILE *out)
 {
     mps_case_key k = {.struct_size = sizeof k}, earlier = {.struct_size = sizeof earlier};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Words of the completion: arrays of bash. No word has a quote or a blank. */
+/* Words of the completion: arrays of bash. No word contains a quote or a blank. */
 #include "cli.h"
 #include "manual.h"
 #include "starts.h"
@@ -21,7 +21,7 @@ static void put_options(FILE *out)
     fprintf(out, ")\n");
 }
 
-/* What follows an option: PATH=VALUE, PLACE, N. */
+/* Write the arguments of options: PATH=VALUE, PLACE, N. */
 static void put_values(FILE *out)
 {
     fprintf(out, "declare -gA _mps_values=(\n");
@@ -34,7 +34,7 @@ static void put_values(FILE *out)
     fprintf(out, ")\n");
 }
 
-/* A path with each of its alternatives: "solids.*.plate|box" as two. */
+/* Write a path with each of its alternatives: "solids.*.plate|box" as two. */
 static void put_paths(FILE *out, const char *done, const char *rest)
 {
     char text[256];

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Coupling of the tank to a body: one that another program computes, mps/couple.h, or one that the library computes, mps/body.h."""
+"""Coupling of the tank to a rigid body, computed by another program (mps/couple.h) or by the
+library (mps/body.h)."""
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
@@ -66,11 +67,12 @@ class Coupling:
         self.check(c.mps_motion_pose_set(self.handle, real("t_end", t_end), byref(state)))
 
     def watch_load(self, mass: bool = False) -> None:
-        """The next steps find out the load of the liquid; mass: its added mass too."""
+        """The next steps compute the load of the liquid; mass: also its added mass."""
         self.check(c.mps_load_watch(self.handle, N.MPS_LOAD_MASS if mass else N.MPS_LOAD_FORCE))
 
     def load(self, centre: Any = None) -> Record:
-        """Load on the tank in the last step: mps_load, with mass as a matrix [6, 6]. About the centre of rotation unless given."""
+        """Load on the tank in the last step: mps_load, with mass as a matrix [6, 6]. Default
+        point: the centre of rotation."""
         load = make(T.mps_load)
         self.check(c.mps_load_get(self.handle, None if centre is None else reals(centre, 3), byref(load)))
         return record(load)
@@ -81,7 +83,8 @@ class Coupling:
         """A rigid body carries the tank; steps solve it together with the liquid: mps_body.
 
         free: degrees of freedom, e.g. "x" or ("x", "rotate_z"). mass without the liquid, inertia about centre_of_mass: one about z, or [3, 3].
-        stiffness, damping: {"rotate_z": 1e4} for the degrees alone, or [6, 6]. equilibrium: where the springs have no load.
+        stiffness, damping: {"rotate_z": 1e4} for single degrees of freedom, or [6, 6]. equilibrium: where
+        the springs have no load.
         load(t, state): other loads, as {"x": force, "rotate_z": moment} or six numbers; state has value, rate and accel [6].
 
             sim.body("x", mass=50.0)
@@ -115,12 +118,12 @@ class Coupling:
         return record(report)
 
     def snapshot(self) -> Snapshot:
-        """The present state in memory; restore() comes back to it, as often as wanted."""
+        """Save the present state in memory; restore() returns to it any number of times."""
         return Snapshot(self).take()  # type: ignore[arg-type]
 
 
 class Snapshot(Owner):
-    """State of a simulation in memory; it belongs to the simulation."""
+    """State of a simulation in memory; the simulation owns it."""
 
     def __init__(self, sim: Simulation) -> None:
         self._sim, snapshot = sim, POINTER(T.mps_snapshot)()
@@ -128,12 +131,12 @@ class Snapshot(Owner):
         self._held = Held("snapshot", snapshot, c.mps_snapshot_destroy, sim._held)
 
     def take(self) -> Snapshot:
-        """Copy the present state into it, in place of what it holds."""
+        """Replace the saved state by the present one."""
         with self._held as snapshot:
             self._sim.check(c.mps_snapshot_take(snapshot))
         return self
 
     def restore(self) -> None:
-        """Give the simulation the state that it holds."""
+        """Set the simulation to the saved state."""
         with self._held as snapshot:
             self._sim.check(c.mps_snapshot_restore(snapshot))

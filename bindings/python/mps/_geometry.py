@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class Geometry:
-    """Functions of mps/geometry.h. Places are in the frame of the tank [m]; up is y."""
+    """Functions of mps/geometry.h. Positions are in the frame of the tank [m]; up is y."""
 
     handle: Any
     dim: int
@@ -26,14 +26,15 @@ class Geometry:
         check: Check
 
     def tank(self, size: Any, **entries: Any) -> np.ndarray:
-        """A rectangular tank; entries of mps_tank: lo, name, open_top, dummy_layers. Returns its size as built."""
+        """A rectangular tank; members of mps_tank: lo, name, open_top, dummy_layers. Returns its
+        size as built."""
         built = (c_double * 3)()
         self.check(c.mps_tank_add(self.handle, byref(make(T.mps_tank, {"size": size, **entries}, "tank")), built))
         return np.array(built)[: self.dim]
 
     @property
     def lattice(self) -> tuple[np.ndarray, np.ndarray]:
-        """First point and distances of the lattice of the fills."""
+        """Origin and spacings of the lattice of fills."""
         lo, h = (c_double * 3)(), (c_double * 3)()
         self.check(c.mps_lattice_get(self.handle, lo, h))
         return np.array(lo)[: self.dim], np.array(h)[: self.dim]
@@ -49,7 +50,8 @@ class Geometry:
         self.check(c.mps_plate_add(self.handle, coded(name), reals(corner, 3), reals(edge, 3), None if edge2 is None else reals(edge2, 3)))
 
     def solid(self, distance: Callable[[np.ndarray], float], lo: Any, hi: Any, **entries: Any) -> None:
-        """A solid by its distance function: distance([dim]) in m, as mps_solid has it, within the box lo .. hi."""
+        """A solid by its distance function: distance([dim]) in m, as in mps_solid, in the box lo
+        .. hi."""
         dim = self.dim
 
         def call(_user: Any, x: Any) -> float:
@@ -60,7 +62,8 @@ class Geometry:
         self.check(c.mps_solid_add(self.handle, byref(one)))
 
     def stl(self, path: str, **entries: Any) -> np.ndarray:
-        """A tank or a solid from an STL file, with entries of mps_stl. Returns the corners as built, [2, dim]."""
+        """A tank or a solid from an STL file, with members of mps_stl. Returns the corners as
+        built, [2, dim]."""
         built = (c_double * 6)()
         self.check(c.mps_stl_add(self.handle, coded(str(path)), byref(make(T.mps_stl, entries, "stl")), built))
         return np.array(built)[: 2 * self.dim].reshape(2, self.dim)
@@ -78,7 +81,8 @@ class Geometry:
         return added.value
 
     def fill(self, inside: Callable[[np.ndarray], object], phase: int = 0) -> int:
-        """Fluid where inside([dim]) is true. Returns the number of particles. An exception in `inside` leaves nothing behind."""
+        """Fluid where inside([dim]) is true. Returns the number of particles. After an exception
+        in `inside` no particle is added."""
         dim, added, first = self.dim, c_int64(), self._newest()
 
         def look(_user: Any, x: Any) -> int:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Who owns an object of the library, and when it is freed."""
+"""Ownership and release of objects of the library."""
 from __future__ import annotations
 
 import os
@@ -42,7 +42,7 @@ class Held:
 
     @property
     def busy(self) -> bool:
-        """Whether a call of the library uses it, or what needs it, now."""
+        """Whether a running call of the library uses it or an object that depends on it."""
         return bool(self._running or (self._calls is not None and self._calls.running) or any(h.busy for h in list(self._children.values())))
 
     def __enter__(self) -> Any:
@@ -54,14 +54,15 @@ class Held:
         self._running -= 1
 
     def forget(self) -> Any:
-        """It was freed by another call."""
+        """Another call has freed it."""
         pointer, self._pointer = self._pointer, None
         if self._parent is not None:
             self._parent._children.pop(id(self), None)
         return pointer
 
     def close(self) -> None:
-        """Free it once. A process that was forked off does not free: its parent has the memory, and the threads."""
+        """Free it once. A forked process does not free: its parent owns the memory and the
+        threads."""
         if self._pointer is None:
             return
         if self.busy:
@@ -78,19 +79,21 @@ O = TypeVar("O", bound="Owner")
 
 
 class Owner:
-    """Base of what holds an object of the library: a context that closes it. It cannot be copied or pickled, because two would free
-    one object. After close() every call raises StateError."""
+    """Base class of owners of an object of the library: a context manager that closes it. It
+    cannot be copied or pickled, because both copies would free the object. After close() every
+    call raises StateError."""
 
     _held = Held("object", None, lambda _: None)
     _instead = ""
 
     def close(self) -> None:
-        """Free it, and what belongs to it; a second call does nothing. BusyError: a call that uses it is under way, e.g. in a monitor."""
+        """Free it and its dependent objects; a second call has no effect. BusyError: a running
+        call uses it, e.g. in a monitor."""
         self._held.close()
 
     @property
     def closed(self) -> bool:
-        """Whether it is closed, alone or with what it belongs to."""
+        """Whether it is closed, alone or with its owner."""
         return self._held.closed
 
     def __enter__(self: O) -> O:

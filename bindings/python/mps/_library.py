@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Find libmps and libmps_case, check that they are the libraries of these bindings, and give their functions types."""
+"""Load libmps and libmps_case, check that they match these bindings, and set the types of their
+functions."""
 from __future__ import annotations
 
 import ctypes
@@ -14,7 +15,7 @@ from ._numbers import MPS_VERSION_MAJOR, MPS_VERSION_STRING
 
 
 def _candidates(name: str) -> list[str]:
-    """Where a library is looked for: MPS_LIBRARY_PATH, this package, the system."""
+    """Search path of a library: MPS_LIBRARY_PATH, this package, the system."""
     file = f"lib{name}.so.{MPS_VERSION_MAJOR}"
     folders = [Path(p) for p in os.environ.get("MPS_LIBRARY_PATH", "").split(":") if p] + [Path(__file__).parent / "lib"]
     return [str(folder / file) for folder in folders if (folder / file).exists()] + [file]
@@ -64,7 +65,7 @@ class Library:
         return version
 
     def _check_size(self, name: str, kind: type[ctypes.Structure], size: int) -> None:
-        """The library takes a struct of this size; it refuses one that is not its own."""
+        """The library accepts a struct of this size; it refuses an unknown size."""
         if f"{name}_init" not in FUNCTIONS or FUNCTIONS[f"{name}_init"][0] != "mps":
             return
         one = kind()

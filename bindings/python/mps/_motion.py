@@ -19,14 +19,15 @@ DEGREES = {"x": N.MPS_MOVE_X, "y": N.MPS_MOVE_Y, "z": N.MPS_MOVE_Z, "rotate_x": 
 
 
 def degree(name: str) -> int:
-    """Number of a degree of freedom."""
+    """Index of a degree of freedom."""
     if name not in DEGREES:
         raise errors.UnknownName(f"no degree of freedom '{name}'; there are {', '.join(DEGREES)}")
     return DEGREES[name]
 
 
 class State:
-    """Pose of a tank with its derivatives, for functions that move it: by name of the degree, in m and rad.
+    """Pose of a tank with its derivatives, for functions that move it: by name of the degree of
+    freedom, in m and rad.
 
         def swing(t, state):
             state.set("rotate_z", 0.1 * sin(5 * t), 0.5 * cos(5 * t), -2.5 * sin(5 * t))"""
@@ -35,7 +36,7 @@ class State:
         self.struct = struct
 
     def set(self, name: str, value: float, rate: float, accel: float) -> None:
-        """Value, first and second derivative of a degree."""
+        """Value, first and second derivative of a degree of freedom."""
         k = degree(name)
         self.struct.value[k], self.struct.rate[k], self.struct.accel[k] = value, rate, accel
 
@@ -56,7 +57,7 @@ class Motion:
     def move_harmonic(self, *harmonics: Mapping[str, Any], **one: Any) -> None:
         """Harmonic motion: value = amplitude sin(omega t + phase), as move_harmonic(dof="rotate_z", amplitude=0.07, omega=5, ramp=2), or the
         sum of several: move_harmonic({"dof": "x", ...}, {"dof": "y", ...}). dof: x, y, z [m], rotate_x, rotate_y, rotate_z [rad]; the other
-        entries are those of mps_harmonic."""
+        keywords are members of mps_harmonic."""
         harmonics += (one,) if one else ()
         if not harmonics:
             raise errors.error(N.MPS_E_ARG, "move_harmonic(dof='x', amplitude=0.02, omega=5.0): no motion is given; stop() ends one")
@@ -66,7 +67,8 @@ class Motion:
         self.check(c.mps_motion_harmonics_set(self.handle, len(harmonics), all_))
 
     def move_table(self, t: Sequence[float], columns: Mapping[str, Sequence[float]] | None = None, **more: Sequence[float]) -> None:
-        """Motion from a table: times [s] and a column for each degree [m, rad], move_table(t, x=[...], rotate_z=[...]) or a dict of them;
+        """Motion from a table: times [s] and a column for each degree of freedom [m, rad], move_table(t, x=[...],
+        rotate_z=[...]) or a dict of them;
         between rows a spline."""
         columns = {**(columns or {}), **more}
         if not columns:
@@ -91,24 +93,24 @@ class Motion:
         self._calls.kept["motion"] = kept
 
     def stop(self) -> None:
-        """No motion from now on."""
+        """Remove the motion."""
         self.check(c.mps_motion_clear(self.handle))
 
     @property
     def pose(self) -> Record:
-        """Values, rates and accelerations of the six degrees of freedom now."""
+        """Present values, rates and accelerations of the six degrees of freedom."""
         state = make(T.mps_motion_state)
         self.check(c.mps_motion_state_get(self.handle, byref(state)))
         return record(state)
 
     def pose_at(self, t: float) -> Record:
-        """The same of the prescribed motion at a time [s]."""
+        """Values, rates and accelerations of the prescribed motion at a time [s]."""
         state = make(T.mps_motion_state)
         self.check(c.mps_motion_state_at(self.handle, real("t", t), byref(state)))
         return record(state)
 
     def to_lab(self, point: Any) -> tuple[np.ndarray, np.ndarray]:
-        """Place in the lab of a point of the tank, and its velocity."""
+        """Position in the lab frame of a point of the tank, and its velocity."""
         lab, velocity = (c_double * 3)(), (c_double * 3)()
         self.check(c.mps_motion_to_lab(self.handle, reals(point, 3), lab, velocity))
         return np.array(lab)[: self.dim], np.array(velocity)[: self.dim]

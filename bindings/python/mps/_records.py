@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""From keywords to structs of C, and from structs to plain values."""
+"""Converts keywords to C structs, and structs to plain values."""
 from __future__ import annotations
 
 import ctypes
@@ -32,7 +32,7 @@ def coded(value: str | None) -> bytes | None:
 
 
 def whole(name: str, value: Any, bits: int = 32) -> int:
-    """A whole number that an integer of C can hold; ctypes would wrap others around."""
+    """A whole number in the range of a C integer; ctypes would wrap others around."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -53,13 +53,13 @@ def real(name: str, value: Any) -> float:
 
 
 def reals(values: Any, least: int = 0) -> ctypes.Array[ctypes.c_double]:
-    """An array of C, filled up with zeros to a least length."""
+    """A C array, padded with zeros to a minimum length."""
     flat = np.asarray(values, dtype=float).reshape(-1)
     return (ctypes.c_double * max(len(flat), least))(*flat)
 
 
 def pointer(array: np.ndarray | None, kind: Any = ctypes.c_double) -> Any:
-    """The numbers of an array of numpy, which lives as long as the pointer."""
+    """Pointer to the data of a numpy array, which it keeps alive."""
     return None if array is None else array.ctypes.data_as(ctypes.POINTER(kind))
 
 
@@ -100,7 +100,7 @@ _defaults: dict[type[ctypes.Structure], ctypes.Structure] = {}
 
 
 def _default(kind: type[S]) -> S:
-    """A struct with the defaults of the library, which is asked once."""
+    """A struct with the defaults of the library, which are read once."""
     found = _defaults.get(kind)
     if found is None:
         found = one = kind()
@@ -115,12 +115,12 @@ def _default(kind: type[S]) -> S:
 
 
 def copied(struct: S) -> S:
-    """A copy of a struct that belongs to the library."""
+    """A copy of a struct that the library owns."""
     return type(struct).from_buffer_copy(struct)
 
 
 def make(kind: type[S], given: dict[str, Any] | None = None, what: str = "") -> S:
-    """A struct with its defaults, and with the entries that are given."""
+    """A struct with its defaults and the given members."""
     one = _default(kind)
     if given:
         names = _entries(kind)
@@ -137,7 +137,7 @@ _OWN = {"struct_size", "reserved", "error", "error_size", "log", "log_user", "sa
 
 @functools.cache
 def _entries(kind: type[ctypes.Structure]) -> dict[str, bool]:
-    """Names of the entries that mean something, and whether each is a text that lives elsewhere."""
+    """Names of the members that users see, and whether each is a pointer to a text."""
     return {f[0]: f[1] is ctypes.c_char_p for f in kind._fields_ if f[0] not in _OWN}
 
 
@@ -146,8 +146,8 @@ _NUMBERS = {ctypes.c_double: np.float64, ctypes.c_float: np.float32, ctypes.c_in
 
 
 class Record:
-    """Values of a struct, by name; arrays are those of numpy. An entry is read when it is asked for: a program that looks at a few entries in
-    each step does not pay for all. record() makes one."""
+    """Values of a struct, by name; arrays are those of numpy. A member is read at its first access:
+    a program that reads a few members in each step does not pay for all. record() makes one."""
 
     _struct: ctypes.Structure
 
@@ -179,7 +179,8 @@ def _revived(values: dict[str, Any]) -> Record:
 
 
 class _Entry:
-    """An entry of a record until it is asked for: then the record has its value, and Python looks there first. It must not define __set__."""
+    """A member of a record until its first access: the value is then stored in the record, which
+    Python searches first. It must not define __set__."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -196,7 +197,7 @@ class _Entry:
 
 
 class _Numbers(_Entry):
-    """An entry that is an array of numbers, in the memory of the struct."""
+    """A member that is an array of numbers, in the memory of the struct."""
 
     def __init__(self, name: str, place: int, kind: Any, shape: tuple[int, ...]) -> None:
         super().__init__(name)
@@ -220,14 +221,14 @@ _kinds: dict[type[ctypes.Structure], tuple[type[Record], list[str]]] = {}
 
 
 def _kind(kind: type[ctypes.Structure]) -> tuple[type[Record], list[str]]:
-    """Class of the records of a struct, and its texts that live elsewhere."""
+    """Class of the records of a struct, and its pointers to texts."""
     entries = {f[0]: _entry(kind, f[0], f[1], _SHAPES.get((kind.__name__, f[0]))) for f in kind._fields_ if f[0] in _entries(kind)}
     found = _kinds[kind] = type("Record", (Record,), entries), [name for name, elsewhere in _entries(kind).items() if elsewhere]
     return found
 
 
 def record(struct: ctypes.Structure) -> Record:
-    """The record of a struct, which is the record's own from now on: copy one that is not."""
+    """The record of a struct, whose ownership it takes: copy a struct that is shared."""
     kind = type(struct)
     made, texts = _kinds.get(kind) or _kind(kind)
     one = made()
@@ -238,7 +239,8 @@ def record(struct: ctypes.Structure) -> Record:
 
 
 class Calls:
-    """Functions of Python that the library calls. An exception in one ends the call of the library and is raised behind it."""
+    """Python functions that the library calls. An exception in one ends the call of the library
+    and is raised after it."""
 
     def __init__(self) -> None:
         self.kept: dict[str, Any] = {}

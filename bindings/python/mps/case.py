@@ -27,7 +27,7 @@ _PLUGINS = {"none": N.MPS_CASE_PLUGINS_NONE, "files": N.MPS_CASE_PLUGINS_FILES, 
 
 
 class CaseError(errors.ArgumentError):
-    """A case has errors; the text has all of them, with their places."""
+    """A case has errors; the text lists all of them, with their positions."""
 
 
 def _show(_kind: int, what: str) -> None:
@@ -40,7 +40,8 @@ def _is_text(source: str) -> bool:
 
 
 class Case(Owner):
-    """A case that was read, as a file, a text in YAML, or a dict with the same keys; `set` changes values by their paths, and wins:
+    """A case that was read, as a file, a text in YAML, or a dict with the same keys; `set` sets values by
+    their paths, and has precedence:
 
         mps.Case("surge.yaml", set={"dp": "8 mm", "run.until": "2 s"})
         mps.Case("mps: 1\\ndp: 1 cm\\n...")             # a str with a line end, or that begins with "mps:"
@@ -48,7 +49,7 @@ class Case(Owner):
 
     Plug-ins are programs that run with all rights of this one. plugins="none" loads none: the case can be read, not built; "files" loads
     those that case files, `set` and `plugin` name; "all" also those that a page, a text or a dict names. plugin=["drag.so"] adds files, or
-    puts them in the place of plug-ins of the same name. Without `plugins`: "files" where `plugin` is given, else "none". They are unloaded
+    replaces plug-ins of the same name. Without `plugins`: "files" where `plugin` is given, else "none". They are unloaded
     when the case is closed, after all that was built from it.
 
     CaseError: it has errors; the text has all of them. Keys: docs/reference/case-keys.md, or `mps list keys`."""
@@ -121,11 +122,12 @@ class Case(Owner):
 
     @property
     def text(self) -> str:
-        """The case as it is run, in YAML, with absolute names of files."""
+        """The case as run, in YAML, with absolute file names."""
         return text(c.mps_case_text(self._held.pointer))
 
     def check(self) -> str:
-        """What the case means, as `mps check` prints it: particles, volumes, periods, motion, cost."""
+        """A summary of the case as `mps check` prints it: particles, volumes, periods, motion,
+        cost."""
         found, sketch = POINTER(ctypes.c_char)(), POINTER(ctypes.c_char)()
         with self._held as case:
             self._check(c.mps_case_check(case, byref(found), byref(sketch)))
@@ -148,19 +150,21 @@ class Case(Owner):
         return Job(self, folder, say, options)
 
     def run(self, folder: str | Path, say: Say | None = _show, **options: Any) -> Run:
-        """Run the case into a folder, and give its results.
+        """Run the case into a folder, and return its results.
 
         overwrite=True: remove an earlier run from it; resume=True: continue from its checkpoint; quiet=True: no progress, and no messages but
-        of failures. say(kind, text) gets messages (MPS_JOB_MESSAGE) and progress (MPS_JOB_PROGRESS), which else go to stderr; None: nothing.
+        of failures. say(kind, text) gets messages (MPS_JOB_MESSAGE) and progress (MPS_JOB_PROGRESS), which go to
+        stderr by default; None: nothing.
         Ctrl-C stops after a step: resume=True continues. A case with a `sweep` is refused: see sweep()."""
         with self.build(folder, say, **options) as job:
             return job.run()
 
     def sweep(self, folder: str | Path, jobs: int = 1, say: Say | None = _show, overwrite: bool = False, quiet: bool = False) -> Sweep:
         """Run all combinations of `sweep` into folders 001, 002 ... of a folder, as `mps sweep` does, `jobs` of them at a time. A run that
-        ended well is left as it is, one that was stopped continues, so that a second call does what is missing; the run of another case in
+        ended well is kept, a stopped one continues, so that a second call does the missing runs; the
+        run of another case in
         such a folder is refused unless overwrite=True. All runs are tried; then the first failure is raised. Ctrl-C stops all after a step.
-        Threads of each run: run.threads of the case; unless it says them, one where jobs > 1."""
+        Threads of each run: run.threads of the case; default: one if jobs > 1."""
         all_, source = sweep(self), self.text
         if not all_[0]:
             raise errors.error(N.MPS_E_STATE, "the case has no 'sweep': run(folder) runs it")
@@ -204,7 +208,7 @@ class Case(Owner):
 
 
 def _continues(case: Case, folder: Path) -> dict[str, bool] | None:
-    """How the run of a case in a folder continues: options of run(), None: it ended well."""
+    """Options of run() that continue the run of a case in a folder, None: it is complete."""
     if not (folder / "case.yaml").exists():
         return {}
     with Case(folder / "case.yaml") as earlier:
@@ -227,7 +231,8 @@ _free.argtypes, _free.restype = [c_void_p], None
 
 
 class Job(Owner):
-    """A case that was built: `simulation`, and the files of its run. It belongs to its case; close() unlocks the folder."""
+    """A case that was built: `simulation`, and the files of its run. The case owns it; close()
+    unlocks the folder."""
 
     def __init__(self, case: Case, folder: str | Path, say: Say | None, options: Mapping[str, Any]) -> None:
         self.case, self.folder = case, Path(folder)

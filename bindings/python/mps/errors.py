@@ -62,7 +62,7 @@ class VersionError(Error):
 
 
 class RanksError(Error):
-    """Another rank failed, or the messages between ranks did."""
+    """Another rank failed, or the communication between ranks."""
 
 
 class NotConverged(UserWarning):
@@ -106,7 +106,8 @@ _OPTIONS = {"set": "set", "out": "folder", "resume": "resume=True", "overwrite":
 
 
 def _word(found: re.Match[str]) -> str:
-    """A function with its brackets, an entry of a struct, or an option; a file may have the name of a function or a struct."""
+    """A function with its brackets, a member of a struct, or an option; a file may have the name
+    of a function or a struct."""
     if found["function"]:
         return PYTHON.get(found["function"], found[0])
     if found["struct"]:
@@ -120,13 +121,14 @@ _WORDS = re.compile(r"\bmps_(?P<function>\w+)\(\)|\b(?P<struct>mps_\w+)\.(?P<ent
 
 
 def in_python(text: str) -> str:
-    """A text of the library in the words of this package: its functions, entries as keywords, options as arguments. Functions that it does
-    not have, those of models in C, of ranks and devices, stay."""
+    """A text of the library in the terms of this package: its functions, members as keywords,
+    options as arguments. Functions without a counterpart (models in C, ranks, devices) stay
+    unchanged."""
     return _WORDS.sub(_word, text)
 
 
 def error(status: int, text: str = "") -> Error:
-    """The exception of a status. Without a text: what the status means."""
+    """The exception of a status. Default text: the meaning of the status."""
     name = _NAMES.get(status, "")
     e = _KINDS.get(name, Error)(in_python(text) or STATUSES.get(name, (status, f"status {status}"))[1])
     e.status = status

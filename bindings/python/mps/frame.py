@@ -22,7 +22,7 @@ def _damaged(path: Path, why: str) -> errors.Error:
 
 
 class _Piece:
-    """A .vtp with appended raw data: its arrays by name, and the texts in its head."""
+    """A .vtp with appended raw data: its arrays by name, and the texts of its header."""
 
     def __init__(self, path: Path) -> None:
         self.path = path

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Arrays of particles, as arrays of numpy."""
+"""Arrays of particles as numpy arrays."""
 from __future__ import annotations
 
 from ctypes import byref
@@ -23,8 +23,8 @@ class Lease(Owner):
         with sim.write("velocity") as u:
             u[sim.fluid] = 0
 
-    The array is a copy: it can be used after the lease, and after the simulation is closed. What was written goes into the library at the
-    end. An exception, or a value that is not allowed, leaves the field as it was."""
+    The array is a copy: it can be used after the lease, and after the simulation is closed. Its
+    values are written to the library at the end. After an exception, or with a value that is not allowed, the field is unchanged."""
 
     _instead = "; its array can be"
     _ended = True
@@ -47,7 +47,8 @@ class Lease(Owner):
         return np.ctypeslib.as_array(start, shape)
 
     def close(self) -> None:
-        """End the lease: the field gets the values of the array. Where one is not allowed, it keeps its values, and the call fails."""
+        """End the lease: write the values of the array to the field. If one is not allowed, the
+        field keeps its values, and the call fails."""
         if self._ended:
             return
         self._ended = True

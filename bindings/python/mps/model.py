@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Models written in Python, for trying things: every verb costs a call of Python and arrays of numpy in each step. What is
-to stay is written in C: docs/tutorials/your_own_model.md. Words are those of mps/model.h.
+"""Models written in Python, for trying things: every verb costs a call of Python and arrays of numpy in each step. Write a
+permanent model in C: docs/tutorials/your_own_model.md. Terms are those of mps/model.h.
 
     class Drag(mps.Model):
         name = "porous.drag"
@@ -48,7 +48,8 @@ class Setting:
 
 @dataclass
 class Channel:
-    """An array that the model brings; components: 1..9, MPS_VECTOR, MPS_MATRIX. life: MPS_LIFE_STEP or MPS_LIFE_PARTICLE."""
+    """An array that the model adds; components: 1..9, MPS_VECTOR, MPS_MATRIX. life:
+    MPS_LIFE_STEP or MPS_LIFE_PARTICLE."""
 
     name: str
     unit: str
@@ -59,7 +60,8 @@ class Channel:
 
 
 def verb(hook: int, *, after: str | None = None, before: str | None = None, **uses: int) -> Callable[[Any], Any]:
-    """A method is called at a hook of the step. uses: channel=MPS_USE_..., which it then has as s[channel]."""
+    """A method is called at a hook of the step. uses: channel=MPS_USE_..., available as
+    s[channel]."""
     def mark(method: Any) -> Any:
         method.verb = (hook, after, before, uses)
         return method
@@ -78,7 +80,8 @@ class Model:
 
 @dataclass
 class Pairs:
-    """All pairs of a stencil: rows i, neighbours j, r = x_j - x_i [pairs, dim], distances [m], weights W."""
+    """All pairs of a stencil: particles i, neighbours j, r = x_j - x_i [pairs, dim], distances
+    [m], weights W."""
 
     i: np.ndarray
     j: np.ndarray
@@ -87,7 +90,7 @@ class Pairs:
     w: np.ndarray
 
     def sum(self, values: np.ndarray, rows: int) -> np.ndarray:
-        """Sum over the neighbours of each row; values [pairs] or [pairs, numbers]."""
+        """Sum over the neighbours of each particle; values [pairs] or [pairs, numbers]."""
         flat = values.reshape(len(values), -1)
         out = np.stack([np.bincount(self.i, weights=flat[:, k], minlength=rows) for k in range(flat.shape[1])], axis=1)
         return out.reshape((rows,) + values.shape[1:])
@@ -115,8 +118,9 @@ def pairs_of(stencil: Any) -> Pairs:
 
 
 class Stage:
-    """What a verb sees of a step. Arrays are copies in the present order of the particles, which may be kept after the verb; what was written
-    into those of channels with MPS_USE_WRITE or MPS_USE_CHANGE goes into the library when the verb returns. A stage raises StateError after
+    """The state of a step in a verb. Arrays are copies in the present order of the particles,
+    which may be kept after the verb; values written to channels with MPS_USE_WRITE or MPS_USE_CHANGE are passed
+    to the library when the verb returns. A stage raises StateError after
     its verb.
 
     s["velocity"]     channel of the verb's uses, [n], [n, dim] or [n, dim^2]; all channels: `mps list models`
@@ -148,7 +152,7 @@ class Stage:
         return self._stage.view.contents
 
     def _end(self, done: bool) -> None:
-        """End it; done: give the library what was written."""
+        """End the stage; done: pass the written values to the library."""
         for name, view in self._views.items() if done else ():
             view[...] = self._arrays[name]
         self._open = None
@@ -274,7 +278,7 @@ def _run(sim: Simulation, model: Model, method: Any, uses: dict[str, int]) -> An
 
 
 def _tables(sim: Simulation, model: Model) -> tuple[Any, list[Any]]:
-    """The table of a model, and what it points to."""
+    """The table of a model, and the objects it points to."""
     found = _verbs(model)
     kept: list[Any] = [model]
     verbs = (T.mps_verb * max(len(found), 1))()
@@ -296,7 +300,7 @@ def _tables(sim: Simulation, model: Model) -> tuple[Any, list[Any]]:
 
 
 def register(sim: Simulation, model: Model) -> str:
-    """Register a model on a simulation, unless it is. Returns its name."""
+    """Register a model on a simulation, unless it is registered. Returns its name."""
     if not isinstance(model, Model):
         raise errors.error(N.MPS_E_ARG, f"a model is a name such as 'gas.pocket' or an object of a class of mps.Model, not {model!r}")
     key = f"model {model.name}"

@@ -66,7 +66,7 @@ class Cloud(Owner):
         return pairs_of(self._of(far))
 
     def _of(self, far: bool) -> Any:
-        """A stencil, which points into the library's list; refused where that is closed."""
+        """A stencil, which points to the library's list; refused if that is closed."""
         _ = self._held.pointer
         return self._stencils[int(far)]
 

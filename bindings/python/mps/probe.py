@@ -28,20 +28,20 @@ class Probe:
 
     @property
     def info(self) -> Record:
-        """What it is, and the face that it reads: mps_probe_info."""
+        """Its description, and the face that it reads: mps_probe_info."""
         info = make(mps_probe_info)
         self._sim.check(c.mps_probe_info_get(self._sim.handle, self.number, byref(info)))
         return record(info)
 
     def read(self) -> np.ndarray:
-        """Its values now, [size]; with an average the mean up to now."""
+        """Its present values, [size]; with an average the mean up to now."""
         values = (c_double * max(self.size, 1))()
         self._sim.check(c.mps_probe_read(self._sim.handle, self.number, values))
         return np.array(values)
 
     @property
     def value(self) -> float:
-        """The first value now."""
+        """The first present value."""
         return float(self.read()[0])
 
     def series(self) -> tuple[np.ndarray, np.ndarray]:

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 
 def _config(sets: Mapping[str, Any] | None = None) -> tuple[Any, Any]:
-    """Constants of the statistics, and where a call writes why it failed."""
+    """Constants of the statistics, with the buffer of error texts."""
     config, error = make(T.mps_stats_config, dict(sets or {}), "impacts"), ctypes.create_string_buffer(1024)
     config.error, config.error_size = ctypes.cast(error, POINTER(ctypes.c_char)), len(error)
     return config, error
@@ -38,8 +38,8 @@ _SINGLE = 2  # columns that are read alone: numbers cost more than lines
 
 class Table(Mapping[str, np.ndarray]):
     """Columns of a CSV file of a run by their names without the unit, "t" first: table["P1"] is an array [rows] in SI units. Nothing is read
-    before a column is used: two columns with the time one by one, then all. refresh() forgets them, of a run that goes on. A last line
-    without its end is left out, because a run may be writing it. pandas.DataFrame(dict(table)) has all columns."""
+    before a column is used: two columns with the time one by one, then all. refresh() discards them, for a run
+    in progress. An incomplete last line is ignored, because a run may be writing it. pandas.DataFrame(dict(table)) has all columns."""
 
     def __init__(self, path: str | Path) -> None:
         self.path = Path(path)
@@ -193,7 +193,7 @@ class Impacts(Sequence[Record]):
 
 
 class Run:
-    """The folder of a run, which need not have ended: nothing is read before it is used.
+    """The folder of a run, finished or in progress: data are read at their first use.
 
         run = mps.Run("out")
         t, p = run.columns["t"], run.columns["P1"]   # arrays in SI units; run.columns.units["P1"]
@@ -212,7 +212,8 @@ class Run:
 
     @property
     def status(self) -> str:
-        """"ok", a code of a failure such as "diverged", or "unfinished": it goes on, was stopped or ended by force."""
+        """"ok", a failure code such as "diverged", or "unfinished": in progress, stopped or
+        killed."""
         return str(self.summary["status"]) if (self.folder / "summary.json").exists() else "unfinished"
 
     @property
@@ -226,14 +227,14 @@ class Run:
 
     @property
     def messages(self) -> list[str]:
-        """What Case.run() said; of a folder that was opened later why the run failed, if it did."""
+        """The log of Case.run(); for a folder opened later, the reason of a failure."""
         if self._messages or self.status == "unfinished":
             return list(self._messages)
         return [self.summary["error"]] if self.summary.get("error") else []
 
     @property
     def about(self) -> dict[str, str]:
-        """What each column of `columns` is, and where."""
+        """Description and position of each column of `columns`."""
         return {one["name"]: one["about"] for one in self.summary["columns"]}
 
     @property
@@ -243,7 +244,7 @@ class Run:
 
     @property
     def case(self) -> Case:
-        """The case as it was run."""
+        """The case as run."""
         from .case import Case
 
         return Case(self.folder / "case.yaml")
@@ -255,7 +256,7 @@ class Run:
 
     def impacts(self, column: str, **settings: Any) -> Impacts:
         """Impacts in a pressure, with the constants of the run; settings change them: threshold="6 kPa" as in a case, threshold=6e3 as in
-        mps_stats_config; from_ stands for `from`, a word of Python."""
+        mps_stats_config; from_ is `from`, a Python keyword."""
         settings = {key.rstrip("_"): value for key, value in settings.items()}
         config, error = _config()
         status = c.mps_stats_config_read(coded(str(self.folder)), byref(config))
@@ -293,7 +294,8 @@ class Sweep(Sequence[Run]):
 
     @cached_property
     def parameters(self) -> list[dict[str, str]]:
-        """For each run the inputs that are not the same in all runs, with units: {"fill.water.depth": "0.1 m"}. {}: it is unfinished."""
+        """For each run the inputs that differ between runs, with units: {"fill.water.depth":
+        "0.1 m"}. {}: it is unfinished."""
         all_ = [run.inputs if (run.folder / "summary.json").exists() else {} for run in self._runs]
         known = [given for given in all_ if given]
         keys = [key for key in (known[0] if known else {}) if _is_path(key) and len({given.get(key) for given in known}) > 1]
@@ -318,5 +320,5 @@ class Sweep(Sequence[Run]):
 
 
 def _is_path(key: str) -> bool:
-    """A path of a case; other inputs follow from them, such as T1."""
+    """Whether an input is a path of a case; other inputs, such as T1, are derived."""
     return "." in key or key in ("dp", "preset", "title")

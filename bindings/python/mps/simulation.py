@@ -29,7 +29,8 @@ _PROBES = {"wall_pressure": N.MPS_PROBE_WALL_PRESSURE, "fluid_pressure": N.MPS_P
 
 
 def _message(log: Callable[[int, str], None] | None) -> Callable[[Any, int, bytes], None]:
-    """What gets texts of the library. It does not refer to the simulation, which would then be freed by the collector alone."""
+    """Receives log messages of the library. It does not refer to the simulation, which only the
+    garbage collector would then free."""
     def call(_user: Any, level: int, what: bytes) -> None:
         if log is not None:
             log(level, text(what))
@@ -40,7 +41,7 @@ def _message(log: Callable[[int, str], None] | None) -> Callable[[Any, int, byte
 
 
 class Simulation(Geometry, Motion, Coupling, Owner):
-    """An MPS simulation. Keywords are the entries of mps_config, with its defaults: Simulation(dp=0.01, dim=2, threads=2).
+    """An MPS simulation. Keywords are the members of mps_config, with its defaults: Simulation(dp=0.01, dim=2, threads=2).
 
     preset: "imps" (one liquid with a free surface), "mmps" (liquid and gas), "imps.paper", "mmps.paper".
     log: a function of (level, text), or None for no log; warnings of the library become warnings of Python.
@@ -71,7 +72,8 @@ class Simulation(Geometry, Motion, Coupling, Owner):
 
     @classmethod
     def adopt(cls, handle: Any, owner: Owner | None = None) -> Simulation:
-        """A simulation that something else made, and destroys: `owner`, which is closed after it."""
+        """A simulation that another object, `owner`, creates and destroys; it is closed before
+        its owner."""
         sim = cls.__new__(cls)
         sim._calls, sim._owner = Calls(), owner
         sim._held = Held("simulation", handle, lambda _: None, owner._held if owner is not None else None, sim._calls)
@@ -94,7 +96,7 @@ class Simulation(Geometry, Motion, Coupling, Owner):
         return errors.error(status, text(c.mps_sim_error(self.handle)))
 
     def check(self, status: int) -> int:
-        """Raise what a call of the library or of one of your functions failed with."""
+        """Raise the failure of a call of the library, or the exception of one of your functions."""
         if status == 0 and self._calls.failed is None:
             return 0
         failed = self._calls.taken()
@@ -157,14 +159,14 @@ class Simulation(Geometry, Motion, Coupling, Owner):
         self.check(c.mps_preset_use(self.handle, coded(name)))
 
     def use(self, model: str | Model, **settings: float) -> None:
-        """Switch a model on, by its name "slot.variant", or one of yours; with settings."""
+        """Activate a model by its name "slot.variant", or one of yours; with settings."""
         name = model if isinstance(model, str) else register(self, model)
         self.check(c.mps_model_use(self.handle, coded(name)))
         for key, value in settings.items():
             self.set(name.split(".")[0], key, value)
 
     def remove(self, slot: str) -> None:
-        """Switch off the model of a slot."""
+        """Deactivate the model of a slot."""
         self.check(c.mps_model_remove(self.handle, coded(slot)))
 
     def set(self, slot: str, key: str, value: float) -> None:
@@ -186,13 +188,13 @@ class Simulation(Geometry, Motion, Coupling, Owner):
         return found
 
     def solver(self, name: str, preconditioner: str | None = None, **limits: float) -> None:
-        """Pressure solver, with entries of mps_solver_limits."""
+        """Pressure solver, with members of mps_solver_limits."""
         self.check(c.mps_solver_use(self.handle, coded(name), coded(preconditioner)))
         if limits:
             self.check(c.mps_solver_limits_set(self.handle, byref(make(T.mps_solver_limits, limits, "solver"))))
 
     def time_control(self, **entries: float) -> None:
-        """Length of the steps: entries of mps_time_control, e.g. cfl, dt, dt_max."""
+        """Length of the steps: members of mps_time_control, e.g. cfl, dt, dt_max."""
         self.check(c.mps_time_control_set(self.handle, byref(make(T.mps_time_control, entries, "time_control"))))
 
     # ---- particles
@@ -211,7 +213,7 @@ class Simulation(Geometry, Motion, Coupling, Owner):
             return values.copy()
 
     def __setitem__(self, field: str, values: Any) -> None:
-        """Write a field; a number stands for all particles."""
+        """Write a field; a single number applies to all particles."""
         with self.write(field) as array:
             array[...] = values
 
@@ -226,11 +228,12 @@ class Simulation(Geometry, Motion, Coupling, Owner):
         return c.mps_particles_count(self.handle, whole("kind", kind))
 
     def add_field(self, name: str, components: int = 1) -> None:
-        """A field of yours, which travels with the particles."""
+        """Add a field of your own, which moves with the particles."""
         self.check(c.mps_field_add(self.handle, coded(name), whole("components", components)))
 
     def add_particles(self, position: Any, velocity: Any = None, area: Any = None, **entries: Any) -> np.ndarray:
-        """Add particles at [n, dim], with entries kind, phase, part of mps_particle_block. Returns their ids."""
+        """Add particles at [n, dim], with members kind, phase, part of mps_particle_block.
+        Returns their ids."""
         dim = self.dim
         arrays = {"position": position, "velocity": velocity, "area": area}
         given = {k: np.ascontiguousarray(v, dtype=float).reshape(-1, dim) for k, v in arrays.items() if v is not None}
@@ -271,7 +274,8 @@ class Simulation(Geometry, Motion, Coupling, Owner):
     # ---- measures
 
     def probe(self, kind: str, at: Any = (), **entries: Any) -> Probe:
-        """A sensor: "wall_pressure", "fluid_pressure", "gauge", "force"; entries of mps_probe, e.g. average, rate, diameter."""
+        """Add a sensor: "wall_pressure", "fluid_pressure", "gauge", "force"; members of
+        mps_probe, e.g. average, rate, diameter."""
         if kind not in _PROBES:
             raise errors.UnknownName(f"no sensor '{kind}'; there are {', '.join(_PROBES)}")
         number = c_int32()
@@ -281,14 +285,14 @@ class Simulation(Geometry, Motion, Coupling, Owner):
 
     @property
     def energy(self) -> Record:
-        """Energies, volume, mass, and the budget: mps_energy."""
+        """Energies, volume, mass, and the energy budget: mps_energy."""
         energy = make(T.mps_energy)
         self.check(c.mps_energy_get(self.handle, byref(energy)))
         return record(energy)
 
     @property
     def momentum(self) -> Record:
-        """Momentum and what changed it: mps_momentum."""
+        """Momentum and its sources: mps_momentum."""
         momentum = make(T.mps_momentum)
         self.check(c.mps_momentum_get(self.handle, byref(momentum)))
         return record(momentum)
@@ -301,7 +305,7 @@ class Simulation(Geometry, Motion, Coupling, Owner):
         return Frames(self, folder, name, kinds)
 
     def checkpoint(self, path: str) -> None:
-        """Write all that the next steps depend on."""
+        """Write the complete state for the next steps."""
         self.check(c.mps_checkpoint_write(self.handle, coded(path)))
 
     def restore(self, path: str) -> None:
@@ -310,7 +314,7 @@ class Simulation(Geometry, Motion, Coupling, Owner):
 
 
 class Frames(Owner):
-    """A series of frames for ParaView; it belongs to its simulation."""
+    """A series of frames for ParaView; the simulation owns it."""
 
     def __init__(self, sim: Simulation, folder: str | Path, name: str, kinds: int) -> None:
         self._sim, frames = sim, POINTER(T.mps_frames)()

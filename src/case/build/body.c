@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `body`: a rigid body that the library moves with the liquid. Its degrees are those of a ship, along axes that are parallel to those of the
- * tank. */
+/* `body`: a rigid body that moves with the liquid by coupling. Its degrees of freedom are those of
+ * a ship, along axes parallel to those of the tank. */
 #include "body.h"
 #include "drive.h"
 #include "pendulum.h"
@@ -39,7 +39,7 @@ static void read_mass(build *b, build_body *body, const tree_node *map)
         for (int j = 0; j < i; j++) body->body.inertia[3 * i + j] = body->body.inertia[3 * j + i];
 }
 
-/* Inertia about an axis of the library through the centre, of a mass at a place. */
+/* Moment of inertia of a point mass about an axis of the library through the centre. */
 static double about_centre(const build_motion *m, double mass, const double *place, int axis)
 {
     double sum = 0;
@@ -50,7 +50,7 @@ static double about_centre(const build_motion *m, double mass, const double *pla
     return sum;
 }
 
-/* What a weight adds to the stiffness of a turn: it topples what lies above the centre. */
+/* Stiffness of a rotation due to a weight: a weight above the centre destabilises. */
 static double weight_stiffness(const build *b, const build_motion *m, double mass,
                                const double *place, int32_t dof)
 {
@@ -64,7 +64,7 @@ static void say(build *b, const tree_node *node, const char *key, int32_t degree
                   key, text);
 }
 
-/* Stiffness and damping of a free degree. */
+/* Stiffness and damping of a free degree of freedom. */
 static void read_spring(build *b, build_body *body, const tree_node *node, int32_t degree)
 {
     const double turn = 2 * acos(-1.0), mass = body->mass[degree];
@@ -163,7 +163,7 @@ static void read_table(build *b, build_body *body, const tree_node *map)
 
 /* ---- all ---- */
 
-/* A period of the body or of its load has so many steps. */
+/* A period of the body or of its load is resolved by so many steps. */
 static double longest_step(const build *b, const build_body *body)
 {
     double least = fmin(mps__shortest_period(&body->load), b->until);
@@ -218,7 +218,7 @@ typedef enum body_value {
     BODY_VALUES
 } body_value;
 
-/* A column. In the memory of the case. */
+/* A column, in the memory of the case. */
 typedef struct body_column {
     body_value what;
     int32_t dof;
@@ -286,7 +286,7 @@ void mps__body_columns(build *b)
 
 /* ---- natural periods ---- */
 
-/* By the tank, where the liquid is one fluid in a box. */
+/* Frozen liquid from the tank, if the liquid is one fluid in a box. */
 static bool box_frozen(const build *b, frozen *f)
 {
     const form *t = &b->tank.form;

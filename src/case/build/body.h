@@ -8,21 +8,22 @@
 typedef struct build_body {
     mps_body body;
     const struct build_drive *drive; /* a load of a plug-in; NULL: none */
-    build_motion axes, load;         /* load: harmonics or a table, by degrees of the ship */
-    /* By degree of the ship, of the body without liquid: mass or inertia about the centre,
-     * stiffness with the part of its weight, damping, dry friction. */
+    build_motion axes, load;         /* load: harmonics or a table, by degree of freedom */
+    /* By degree of freedom of the ship, of the body without liquid: mass or moment of inertia about
+     * the centre, stiffness including that of its weight, damping, dry friction. */
     double mass[MOTION_DEGREES], stiffness[MOTION_DEGREES], damping[MOTION_DEGREES],
         friction[MOTION_DEGREES];
 } build_body;
 
-/* Mass, centre of mass and inertia about the centre of the liquid as if it were solid. */
+/* Mass, centre of mass and moment of inertia about that centre of the liquid frozen as a solid. */
 typedef struct frozen {
-    double mass, place[3], inertia[3]; /* inertia about the axes x, y, z through the centre */
+    /* moments of inertia about the axes x, y, z through the centre */
+    double mass, place[3], inertia[3];
 } frozen;
 
 bool mps__body_frozen(const build *b, frozen *f);
-/* Natural period of a degree [s], without liquid (NULL) or with solid liquid; nan: nothing
- * restores. */
+/* Natural period of a degree of freedom [s], without liquid (NULL) or with frozen liquid; nan: no
+ * restoring stiffness. */
 double mps__body_period(const build *b, int32_t degree, const frozen *liquid);
 
 #endif

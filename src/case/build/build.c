@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A case becomes a simulation and a job. */
+/* Builds a simulation and a job from a case. */
 #include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,15 +8,16 @@
 
 enum { TIMES_MOST = 24 };
 
-/* A part has failed, and the case with it. What does not need it is read too, so that its
- * errors are reported in the same round. The first period may not be known now: it is 1 s, which no
- * message has.
+/* A part of the case has failed. Read the parts that do not depend on it too, so that their errors
+ * are reported in the same run. If the first period is not known, it is taken as 1 s, which no
+ * message shows.
  * @param done  parts that were built, the last of which failed */
 static void report_others(build *b, size_t done)
 {
     static void (*const other[])(build *) = {mps__build_motion, mps__build_body, mps__build_time,
                                              mps__build_sensors, mps__build_references};
-    static const size_t before[] = {6, 7, 8, 2, 0}; /* parts of the list below that are done then */
+    /* number of parts of the list below done before */
+    static const size_t before[] = {6, 7, 8, 2, 0};
     const read_scale scale = {b->dp, b->modes.count > 0 ? b->modes.period[0] : 1, NAN};
     for (size_t k = 0; k < sizeof other / sizeof *other && b->status == MPS_OK; k++) {
         const bool sensors = other[k] == mps__build_sensors;
@@ -28,8 +29,8 @@ static void report_others(build *b, size_t done)
     mps__case_go_on(b->c, false);
 }
 
-/* A motion of kilometres in a tank of metres is most often one with a wrong unit; a tank that
- * travels begins with its liquid. */
+/* An amplitude of kilometres in a tank of metres is usually a wrong unit; a tank in translation
+ * starts with its liquid at its speed. */
 static void warn_amplitudes(build *b)
 {
     const form *t = &b->tank.form;
@@ -53,7 +54,7 @@ static void warn_amplitudes(build *b)
     }
 }
 
-/* All before the job: its end may be in units of T1, which the liquid as filled tells. */
+/* All steps before the job: its end may be in units of T1, which the filled liquid determines. */
 void mps__build_simulation(build *b, const mps_job_config *options)
 {
     static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
@@ -81,7 +82,7 @@ void mps__build_simulation(build *b, const mps_job_config *options)
     if (!mps__case_failed(b->c)) warn_amplitudes(b);
 }
 
-/* What a form looks like in the plane x, y, where that is one line. */
+/* The cross-section of a form in the plane x, y, if it is one line. */
 static int32_t outline_of(const form *t, double (*xy)[2])
 {
     int32_t count = 0;
@@ -104,7 +105,7 @@ static int32_t outline_of(const form *t, double (*xy)[2])
     return count;
 }
 
-/* What is left of a plate between its slots, from one end to the other, as built. */
+/* The parts of a plate between its slots, from one end to the other, as built. */
 static void add_plate_outline(build *b, const build_solid *s)
 {
     double part[2], xy[2][2];
@@ -117,7 +118,7 @@ static void add_plate_outline(build *b, const build_solid *s)
     }
 }
 
-/* Tank and solids for the page. Of a file the box is not drawn. */
+/* Tank and solids for the page. The box of a file is not drawn. */
 static void add_outlines(build *b)
 {
     double xy[FORM_POINTS + 1][2];
@@ -133,7 +134,7 @@ static void add_outlines(build *b)
     }
 }
 
-/* Statistics are made from the folder of the run, sweeps by the program. */
+/* Statistics are computed from the folder of the run, sweeps by the program. */
 static void build_columns(build *b)
 {
     static const char *const others[] = {"mps",   "title",   "base",  "set",
@@ -160,13 +161,13 @@ static void build_columns(build *b)
                       mps__tree_path(unread, path, sizeof path));
 }
 
-/* A level was asked for, by `depth`; else the job takes that of the highest particle. */
+/* Whether a level is requested by `depth`; otherwise the job uses that of the highest particle. */
 bool mps__build_filled(const build *b)
 {
     return !isnan(b->depth);
 }
 
-/* "surge" of "cases/surge.yaml". */
+/* Extract "surge" from "cases/surge.yaml". */
 static void name_of(const mps_case *c, char *name, size_t size)
 {
     const char *path = c->source[0].name, *slash = strrchr(path, '/');
@@ -174,7 +175,7 @@ static void name_of(const mps_case *c, char *name, size_t size)
     snprintf(name, size, "%.*s", (int)(dot ? dot - begin : (int)strlen(begin)), begin);
 }
 
-/* The preset and what was changed in it. */
+/* The preset and what is changed in it. */
 static void model_of(const build *b, char *text, size_t size)
 {
     static const char *const key[] = {"use", "remove", "settings"};
@@ -190,8 +191,8 @@ static void model_of(const build *b, char *text, size_t size)
     }
 }
 
-/* Frames that show a period, within what the page has space for: a particle takes about so many
- * bytes of a frame there. */
+/* Number of frames that resolves a period, within the space of the page: a particle takes about so
+ * many bytes of a frame. */
 static int32_t default_frames(const build *b, double page)
 {
     static const double A_PERIOD = 20, LEAST = 50, MOST = 2000, BYTES[4] = {0, 0, 3.6, 5},
@@ -206,7 +207,7 @@ static int32_t default_frames(const build *b, double page)
     return (int32_t)fmax(fmin(fmin(wanted, space), MOST), LEAST);
 }
 
-/* What the program says, and what the case says. */
+/* Merge options of the program and values of the case. */
 static void read_config(build *b, mps_job_config *out, double *times)
 {
     const tree_node *run = mps__tree_find(b->root, "run"),
@@ -233,8 +234,7 @@ static void read_config(build *b, mps_job_config *out, double *times)
     config.trace = config.trace || mps__read_flag(b->c, output, "trace", false);
     config.threads = (int32_t)mps__read_number(b->c, run, "threads", 2);
     const double page = mps__read_number(b->c, output, "page", (double)config.page_bytes);
-    const double space = page > 0 ? page
-                                  : (double)config.page_bytes; /* without a page as with one */
+    const double space = page > 0 ? page : (double)config.page_bytes; /* independent of the page */
     b->frames = (int32_t)mps__read_number(b->c, output, "frames", default_frames(b, space));
     config.frames = b->frames;
     config.page_bytes = (int64_t)page;
@@ -255,7 +255,7 @@ static mps_status create_job(build *b, const mps_job_config *options)
     return mps__case_failed(b->c) ? MPS_E_ARG : mps_job_create(&config, &b->job);
 }
 
-/* The job says what the library said before. */
+/* Log through the job what the library logged before. */
 static void say_log(build *b)
 {
     b->log->job = b->job;
@@ -327,7 +327,7 @@ mps_status mps_case_check(mps_case *c, char **text, char **sketch)
     if (status == MPS_OK && text && !(*text = mps__check_write(b))) status = MPS_E_NOMEM;
     if (c->no_memory || b->status == MPS_E_NOMEM)
         status = MPS_E_NOMEM;
-    else if (status == MPS_OK && mps__case_failed(c)) /* by its first steps */
+    else if (status == MPS_OK && mps__case_failed(c)) /* in its first steps */
         status = MPS_E_ARG;
     if (status != MPS_OK) {
         if (sketch) free(*sketch);

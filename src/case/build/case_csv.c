@@ -46,7 +46,7 @@ int32_t mps__case_csv_find(mps_case *c, const tree_node *at, const mps__csv *t, 
 
 /* ---- units ---- */
 
-/* Other ways to write a unit, or the begin of one, in the names of a table. */
+/* Other spellings of a unit, or of its first characters, in the names of a table. */
 static const struct {
     const char *written, *unit;
 } others[] = {{"\xc2\xb0", "deg"}, /* degree sign, UTF-8 */
@@ -76,7 +76,7 @@ static bool same_unit(const mps__unit *a, const mps__unit *b)
            fabs(mps__unit_value(a) - mps__unit_value(b)) <= 1e-12 * fabs(mps__unit_value(b));
 }
 
-/* Two sources of one fact: that of the table and that of the case. @return false: they differ */
+/* Compare the units of the table and of the case. @return false: they differ */
 static bool agree(mps_case *c, const tree_node *at, const mps__csv *t, int32_t column,
                   const char *unit)
 {
@@ -90,7 +90,7 @@ static bool agree(mps_case *c, const tree_node *at, const mps__csv *t, int32_t c
     return false;
 }
 
-/* Units that a table may have: those of a kind, but for dp, T1 and shares. */
+/* List the units that a table may have: those of a kind, except dp, T1 and %. */
 static void list_units(uint64_t kinds, char *out, size_t size)
 {
     const mps__unit *u;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a case amounts to, as a text for people. */
+/* Describes a case in a text for users. */
 #include "picture_scene.h"
 #include "check.h"
 #include <math.h>
@@ -9,14 +9,14 @@
 #include <string.h>
 #include <time.h>
 
-enum { STEPS = 3 }; /* that are timed, after the first */
+enum { STEPS = 3 }; /* timed steps, after the first */
 
 void mps__check_heading(const writer *w, const char *name)
 {
     fprintf(w->file, "%-9s ", name);
 }
 
-/* A number with few digits and the prefix of a person: 0.25 m is "250 mm". */
+/* A number with few digits and a convenient prefix: 0.25 m is "250 mm". */
 static const char *length_text(double x, char *out, size_t size)
 {
     const double a = fabs(x);
@@ -29,8 +29,7 @@ static const char *length_text(double x, char *out, size_t size)
     return out;
 }
 
-/* Coordinates to a hundredth of dp, without zeros at their ends: of a tank that is far from 0
- * too. */
+/* Coordinates to a hundredth of dp, without trailing zeros: also for a tank far from the origin. */
 void mps__check_place(const writer *w, const build *b, const double *x)
 {
     const int decimals = (int)fmin(12, fmax(0, ceil(2 - log10(b->dp))));
@@ -48,9 +47,9 @@ void mps__check_place(const writer *w, const build *b, const double *x)
     fprintf(w->file, ") m");
 }
 
-/* ---- what there is ---- */
+/* ---- contents ---- */
 
-/* dp as asked for; as built, and the cells of the lattice, where these differ. */
+/* dp as requested; as built, and the cells of the lattice, if these differ. */
 static void write_spacing(const writer *w, const build *b)
 {
     char text[32];
@@ -68,7 +67,7 @@ static void write_spacing(const writer *w, const build *b)
         fprintf(w->file, "%s %s", d ? " x" : "", length_text(h[d], text, sizeof text));
 }
 
-/* Corners of a box, or ends of a plate. */
+/* Write corners of a box, or ends of a plate. */
 static void write_corners(const writer *w, const build *b, const double *from, const double *to)
 {
     mps__check_place(w, b, from);
@@ -76,7 +75,7 @@ static void write_corners(const writer *w, const build *b, const double *from, c
     mps__check_place(w, b, to);
 }
 
-/* Openings of a plate with their extent along its first side, from the first point. */
+/* Write openings of a plate with their extent along its first side, from the first point. */
 static void write_slots(const writer *w, const build *b, const build_solid *s)
 {
     const double length = s->slots * s->pitch;
@@ -101,7 +100,7 @@ static void write_slots(const writer *w, const build *b, const build_solid *s)
     fprintf(w->file, " m wide = %.3g dp, asked %.4g m", narrowest / b->dp, s->gap);
 }
 
-/* A solid in one line: as built, and as asked where that differs. */
+/* Write a solid in one line: as built, and as requested if that differs. */
 static void write_solid(const writer *w, const build *b, const build_solid *s)
 {
     double from[3], to[3], part[2], off = 0;
@@ -153,7 +152,8 @@ static void write_tank(const writer *w, const build *b)
     }
 }
 
-/* What the library told. Where a fill has whole rows beside inclined walls its cells overlap: its volume, counted in cells, is left out. */
+/* Write the log of the library. If a fill has whole layers beside inclined walls, its cells
+ * overlap: its volume, counted in cells, is left out. */
 static void write_log(const writer *w, const build *b)
 {
     const bool straight = b->tank.form.kind == FORM_BOX && !b->tank.file,
@@ -171,14 +171,14 @@ static void write_log(const writer *w, const build *b)
     fprintf(w->file, ".. and %d more messages like these\n", (int)b->log->further);
 }
 
-/* A text from which something is left out because memory ran out is no text. @return status is MPS_OK */
+/* A text that is incomplete because memory was exhausted is discarded. @return status is MPS_OK */
 static bool is_done(build *b, mps_status status)
 {
     if (status == MPS_E_NOMEM) b->status = status;
     return status == MPS_OK;
 }
 
-/* Particles of the liquid in the uppermost row of the lattice, and in the row below. */
+/* Particles of the liquid in the top layer of the lattice, and in the layer below. */
 typedef struct top_rows {
     double y, height;
     int64_t top, below;
@@ -204,16 +204,16 @@ static bool find_rows(build *b, top_rows *r)
     return good && r->top > 0 && r->below > 0;
 }
 
-/* A level between two rows leaves the uppermost one with the particles that the volume asks for, in
- * groups or beside walls: steps in the surface. Measured in boxes of 4 and 20 rows, 2-D and 3-D, and
- * in a polygon of 3.6 rows: the level of the pressures is off by up to .39 rows at the start and by
- * up to .2 rows later. */
+/* A level between two layers leaves the top layer with as many particles as the volume requires, in
+ * groups or beside walls: steps in the surface. Measured in boxes of 4 and 20 layers, 2-D and 3-D,
+ * and in a polygon of 3.6 layers: the level of the pressures is off by up to .39 layers at the
+ * start and by up to .2 layers later. */
 static void write_top(const writer *w, build *b)
 {
     top_rows r;
     if (b->fluids != 1 || !mps__build_filled(b) || !find_rows(b, &r)) return;
     const double share = (double)r.top / (double)r.below;
-    if (share > 0.9) return; /* whole, or narrower by a slope */
+    if (share > 0.9) return; /* complete, or narrower because of a slope */
     mps__check_heading(w, "");
     fprintf(w->file,
             "the uppermost row has %.2g %% of the particles of the row below: steps of one spacing "
@@ -257,7 +257,8 @@ static void write_fluids(const writer *w, build *b)
     }
 }
 
-/* Which solids stand in the surface, and what the periods of the open part are if nothing passes below them. */
+/* Write which solids pierce the surface, and the periods of the open part if no liquid passes below
+ * them. */
 static void write_blocks(const writer *w, const build *b)
 {
     const build_modes *m = &b->modes;
@@ -279,7 +280,8 @@ static void write_blocks(const writer *w, const build *b)
             m->open, mps__modes_period(b, m->open));
 }
 
-/* The first wave along the other horizontal axis: a motion of a file may have all degrees. */
+/* The first wave along the other horizontal axis: a motion of a file may have all degrees of
+ * freedom. */
 static void write_other_axis(const writer *w, const build *b)
 {
     const build_modes *m = &b->modes;
@@ -306,7 +308,7 @@ static void write_modes(const writer *w, const build *b)
     write_blocks(w, b);
 }
 
-/* A force is along an axis; a moment is about one, which goes through a place. */
+/* A force is along an axis; a moment is about an axis through a point. */
 static void write_force(const writer *w, const build *b, const build_sensor *s)
 {
     const bool moment = s->component >= b->dim;
@@ -342,7 +344,8 @@ static void write_sensor(const writer *w, build *b, const build_sensor *s)
     fprintf(w->file, "\n");
 }
 
-/* Above liquid that has gas over it the interface is half a spacing over the upper row; a free surface is at it. */
+/* If there is gas above the liquid, the interface is half a spacing above the top layer; a free
+ * surface is at that layer. */
 static void write_static_excess(const writer *w, const build *b)
 {
     double dp = b->dp;
@@ -394,7 +397,7 @@ static void write_plugins(const writer *w, const build *b)
     }
 }
 
-/* ---- what it costs ---- */
+/* ---- cost ---- */
 
 static double seconds(void)
 {
@@ -403,8 +406,8 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Largest speed of the tank as its liquid feels it, at its corners: a uniform motion that both have
- * makes nothing faster. */
+/* Largest speed of the tank relative to uniform motion, at its corners: a uniform motion of tank
+ * and liquid causes no flow. */
 static double tank_speed(const build *b)
 {
     const build_motion *m = b->motion;
@@ -418,16 +421,18 @@ static double tank_speed(const build *b)
     return most;
 }
 
-/* What a run takes: with waves of half the depth, and with liquid that falls through the tank all the time. */
+/* Expected steps of a run: with waves of half the depth, and with liquid that falls through the
+ * tank all the time. */
 typedef struct forecast {
-    double calm, fast; /* steps [s] */
+    double calm, fast; /* length of steps [s] */
     double speed;      /* of the fast liquid [m/s] */
-    double took;       /* a step at rest [s of wall clock] */
+    double took;       /* wall clock of a step at rest [s] */
     double least, most;
 } forecast;
 
-/* A step at rest needs the least: the pressure solver starts from still water, no particle collides. docs/performance.md: in runs a
- * particle-step costs up to 1.75 times that of the fastest one. */
+/* A step at rest is the cheapest: the pressure solver starts from still water, no particle
+ * collides. docs/performance.md: in runs the cost per particle and step is up to 1.75 times that of
+ * the cheapest one. */
 static forecast find_forecast(build *b, double dt, double took)
 {
     const double slowest = 1.75;
@@ -447,7 +452,7 @@ static forecast find_forecast(build *b, double dt, double took)
     return f;
 }
 
-/* Both in the unit of the larger one: "3.9 to 9.1 s". */
+/* Write both in the unit of the larger one: "3.9 to 9.1 s". */
 static void write_span(const writer *w, double least, double most)
 {
     const double unit = most < 100 ? 1 : most < 6000 ? 60 : 3600;
@@ -457,7 +462,8 @@ static void write_span(const writer *w, double least, double most)
                        : "s");
 }
 
-/* Where several rows of probes.csv are within a step: they have the same values, and the times of the rate that was asked for. */
+/* Warn if several rows of probes.csv are within a step: they have interpolated values at the
+ * requested rate. */
 static void write_rate(const writer *w, const build *b, double dt)
 {
     const tree_node *output = mps__tree_find(b->root, "output");
@@ -471,7 +477,8 @@ static void write_rate(const writer *w, const build *b, double dt)
         rate, dt * rate, 1 / dt);
 }
 
-/* Largest memory of this program so far [bytes]; that of getrusage() begins with the memory of the program that started it. */
+/* Peak memory of this program so far [bytes]; getrusage() includes the peak of the program that
+ * started it. */
 static double peak_memory(void)
 {
     char line[160];
@@ -483,8 +490,9 @@ static double peak_memory(void)
     return 1024 * kib;
 }
 
-/* Of a run [bytes]: of its steps, and on top of them the larger one of its last picture, which is drawn here, and of its page: a frame
- * of all particles with eleven numbers each, their places by id, and what is packed of the fluid. */
+/* Peak memory of a run [bytes]: that of its steps, plus the larger of its last picture, which is
+ * drawn here, and its page: a frame of all particles with eleven numbers each, their indices by id,
+ * and the packed fluid. */
 static double find_memory(build *b)
 {
     const double steps = peak_memory(), all = (double)mps_particles_count(b->sim, -1),
@@ -534,7 +542,7 @@ static void write_cost(const writer *w, build *b)
                                  .memory = memory};
 }
 
-/* Frames of the run, on the disk: of each particle so many bytes. */
+/* Size of the frames on the disk: so many bytes per particle. */
 static void write_frames(const writer *w, const build *b)
 {
     static const double BYTES = 62;

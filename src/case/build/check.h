@@ -6,20 +6,20 @@
 #include "body.h"
 #include <stdio.h>
 
-/* A text that grows. */
+/* A growing text. */
 typedef struct writer {
     char *text;
     size_t size;
     FILE *file;
 } writer;
 
-/* Begin a line, of a topic or "" of the one before. */
+/* Begin a line with a topic, or "" for that of the line before. */
 void mps__check_heading(const writer *w, const char *name);
-/* A place, "(0.4, 0.1) m". */
+/* Write a position, "(0.4, 0.1) m". */
 void mps__check_place(const writer *w, const build *b, const double *x);
-/* Mass, and periods of each free degree alone, the others held. */
+/* Write mass and period of each free degree of freedom alone, the others fixed. */
 void mps__check_write_body(const writer *w, const build *b);
-/* What is prescribed: extremes, filter, start. */
+/* Write the prescribed motion: extremes, filter, start. */
 void mps__check_write_motion(const writer *w, build *b);
 void mps__check_write_start(const writer *w, build *b);
 

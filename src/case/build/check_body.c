@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What mps check says about a body: mass, and natural periods with and without liquid. */
+/* What mps check reports about a body: mass, and natural periods with and without liquid. */
 #include "check.h"
 #include "pendulum.h"
 #include <math.h>
@@ -14,13 +14,13 @@ static void write_period(const writer *w, const char *how, double period, const 
         fprintf(w->file, " = %.3g T1", period / b->modes.period[0]);
 }
 
-/* Of units of masses and loads. */
+/* Suffix of units of masses and loads. */
 static const char *per_width(const build *b)
 {
     return b->dim == 2 ? "/m" : "";
 }
 
-/* The two lowest periods with the moving liquid, of a box. */
+/* The two lowest coupled periods of body and liquid in a box. */
 static void write_coupled(const writer *w, const build *b, int32_t degree)
 {
     pendulum p;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What mps check says about a motion: as the run has it, from its beginning to its end. */
+/* What mps check reports about a motion as the run has it, from start to end. */
 #include "check.h"
 #include <math.h>
 

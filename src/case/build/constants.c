@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constants of the statistics from a text, through the table of keys. */
+/* Reads constants of the statistics from a text through the table of keys. */
 #include "read.h"
 #include "statistics.h"
 #include "tree.h"
@@ -11,7 +11,7 @@
 
 static const char group[] = "impacts";
 
-/* A text that is no constant, with the key that was probably meant. */
+/* Refuse a text that is no constant, and propose the most similar key. */
 static mps_status refuse(const mps_stats_config *config, const char *text)
 {
     char name[80], near[64];
@@ -25,7 +25,7 @@ static mps_status refuse(const mps_stats_config *config, const char *text)
     return MPS_E_ARG;
 }
 
-/* What the case says about the text, without the end of the last line. */
+/* Report the message of the case about the text, without the last newline. */
 static mps_status refuse_case(const mps_stats_config *config, const mps_case *c)
 {
     const size_t size = mps_case_messages_write(c, NULL, 0) + 1;
@@ -70,7 +70,7 @@ static mps_status put_all(mps_case *c, mps_stats_config *config)
 
 mps_status mps_stats_config_set(mps_stats_config *config, const char *text)
 {
-    /* all that a case must have; the text is checked as part of it */
+    /* minimal valid case; the text is checked as part of it */
     static const char around[] = "mps: 1\ndp: 1 m\ntank: {size: 1 1 m}\n"
                                  "fill: [{water: {depth: 1 m}}]\nrun: {until: 1 s}\n";
     mps_case *c = NULL;

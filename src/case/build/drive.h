@@ -7,11 +7,12 @@
 
 typedef struct build_drive build_drive;
 
-/* The load or motion, MPS_PLUGIN_..., that `plugin` below `map` names, with its settings. NULL: none is given, or a message says why not. */
+/* The load or motion, MPS_PLUGIN_..., that `plugin` below `map` names, with its settings. NULL:
+ * none is given, or there is a message. */
 const build_drive *mps__drive_read(build *b, const tree_node *map, int32_t kind);
-/* Whether a name of a setting belongs to a load or motion. */
+/* Whether the name of a setting belongs to a load or motion. */
 bool mps__drive_has(const build *b, const char *key);
-/* Its shortest period [s]; infinite without one. */
+/* Its shortest period [s]; infinite if it has none. */
 double mps__drive_period(const build_drive *d);
 /* For mps_motion_callback_set(), and for loads of bodies. */
 int mps__drive_motion(void *drive, double t, mps_motion_state *state);

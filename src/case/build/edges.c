@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Edges of the tank in 3-D, for pictures and the film of the page. A cylinder and a ball have none: lines on them show their shape. */
+/* Edges of the tank in 3-D, for pictures and the film of the page. A cylinder and a sphere have no
+ * edges: lines on them show their shape. */
 #include "build.h"
 #include <math.h>
 #include <string.h>
 
-enum { EDGES_MOST = 3000, ARC = 48 /* lines of a circle */ };
+enum { EDGES_MOST = 3000, ARC = 48 /* lines per circle */ };
 
 static const double SHARP = 20; /* degrees between the normals at an edge */
 
@@ -21,7 +22,7 @@ static void add_edge(edges *e, const double from[3], const double to[3])
     memcpy(e->x[e->count++] + 3, to, 3 * sizeof *to);
 }
 
-/* Part of an ellipse about m with two half axes, from an angle to another. */
+/* Add an arc of an ellipse about m with two half axes, between two angles. */
 static void add_arc(edges *e, const double m[3], const double a[3], const double b[3], double from,
                     double to)
 {
@@ -36,7 +37,7 @@ static void add_arc(edges *e, const double m[3], const double a[3], const double
     }
 }
 
-/* Angle by which the outline turns at point i [degrees]. */
+/* Angle between the sides of the outline at point i [degrees]. */
 static double turn_at(const form *t, int32_t i)
 {
     const double *a = t->point[(i + t->points - 1) % t->points], *b = t->point[i],
@@ -45,7 +46,7 @@ static double turn_at(const form *t, int32_t i)
     return fabs(atan2(u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1])) * 180 / acos(-1.0);
 }
 
-/* Both ends, and what joins them at sharp corners. */
+/* Both end faces, and the lines between their sharp corners. */
 static void polygon_edges(edges *e, const form *t)
 {
     const int k = t->sideways ? 2 : 0;
@@ -99,7 +100,7 @@ static void ball_edges(edges *e, const form *t)
     }
 }
 
-/* Of a file with too many edges, those that are sharper. */
+/* If a file has too many edges, add the sharper ones. */
 static void file_edges(build *b, edges *e)
 {
     const tree_node *map = b->tank.at;

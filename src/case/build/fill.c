@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Filling the tank, in the order of the case. */
+/* Fills the tank, in the order of the case. */
 #include "build.h"
 #include <math.h>
 #include <stdio.h>
@@ -33,9 +33,10 @@ static void fill_rest(filling *f)
     done(f, mps_fill_box_add(f->b->sim, f->phase, t->lo, t->hi, NULL, NULL));
 }
 
-/* A wave that stands in a rectangular tank, released at its highest: each lattice point is displaced as linear theory does, which keeps areas;
- * a straight stretch of the columns would compress the water under the trough. What second order leaves at the top of a column is put right
- * over its height. */
+/* A standing wave in a rectangular tank, released at its highest elevation: each lattice point is
+ * displaced by linear theory, which preserves areas; a linear stretch of the columns would compress
+ * the water under the trough. The remaining second-order error at the top of a column is
+ * distributed over its height. */
 static void displace(const double *x, double k, double top, double amplitude, double *out)
 {
     const double a = amplitude / sinh(k * top);
@@ -84,8 +85,8 @@ static void fill_standing(filling *f)
         add_displaced(f, amplitude, b->depth);
 }
 
-/* Below gas, and with a model to the letter of the papers, the liquid ends with the last whole row: in a row of both fluids the one would
- * have to pass through the other. */
+/* Below gas, in a model as published in the papers, the liquid ends with the last whole layer: in a
+ * layer of both fluids one would have to pass through the other. */
 static bool in_whole_rows(const filling *f)
 {
     return mps__read_flag(f->b->c, f->map, "whole_rows", false) || f->b->several || f->b->paper;
@@ -99,7 +100,7 @@ static void fill_depth(filling *f)
     const double height = t->hi[1] - t->lo[1], level = fmin(t->lo[1] + b->depth, t->hi[1]);
     const bool whole = in_whole_rows(f);
     if (mps__case_failed(b->c)) return;
-    if (b->depth > height + 1e-6 * b->dp) { /* a length, so that it does not matter where it is */
+    if (b->depth > height + 1e-6 * b->dp) { /* tolerance in lengths, independent of the origin */
         char text[BUILD_TEXT];
         snprintf(text, sizeof text, "%.9g m is more than the tank is high, %.9g m", b->depth,
                  height);
@@ -118,7 +119,7 @@ static void fill_depth(filling *f)
     b->level = built[b->dim + 1];
 }
 
-/* ---- bodies of fluid ---- */
+/* ---- shapes of fluid ---- */
 
 static void fill_box(filling *f)
 {
@@ -135,7 +136,8 @@ static void fill_box(filling *f)
                              : mps_fill_level_add(b->sim, f->phase, lo, hi, NULL, NULL));
 }
 
-/* With the points on its surface: on a lattice the volume of a ball is then nearer to its own. */
+/* Including points on the surface: on a lattice the volume of a sphere is then closer to the exact
+ * one. */
 static int in_shape(void *user, const double *x)
 {
     const form *s = user;
@@ -193,8 +195,9 @@ static void fill_wave(filling *f)
 
 /* ---- velocities ---- */
 
-/* The second mode of a drop in another fluid: r = R (1 + share sin(w t) cos(2 phi)) with w^2 = 6 sigma/((rho_i + rho_o) R^3), at t = 0. Its
- * potential flow: rate (x, -y) inside, the same at the surface and falling off outside. */
+/* The second mode of a droplet in another fluid: r = R (1 + share sin(w t) cos(2 phi)) with w^2 = 6
+ * sigma/((rho_i + rho_o) R^3), at t = 0. Its potential flow: rate (x, -y) inside, equal at the
+ * surface and decaying outside. */
 typedef struct drop {
     double x[2], radius, rate;
 } drop;
@@ -229,7 +232,8 @@ static bool read_drop(filling *f, drop *o)
     return true;
 }
 
-/* Of all particles whose id is at least `first`, which are those of this fill; of an oscillation all fluid moves.
+/* Set the velocity of all particles whose id is at least `first`: those of this fill; an
+ * oscillation moves all fluid.
  * @param u  the velocity, or NULL: that of `o` */
 static void set_velocity(filling *f, int64_t first, const double *u, const drop *o)
 {
@@ -262,7 +266,7 @@ static void start_moving(filling *f, int64_t first)
         set_velocity(f, first, u, NULL);
 }
 
-/* After all fluids are there. */
+/* Called after all fluids are filled. */
 static void start_drop(build *b, const tree_node *at)
 {
     filling f = {b, at, 0, at->key};
@@ -271,7 +275,7 @@ static void start_drop(build *b, const tree_node *at)
         set_velocity(&f, 0, NULL, &o);
 }
 
-/* Ids are given in rising order. */
+/* Ids are assigned in ascending order. */
 static int64_t next_id(build *b)
 {
     int64_t next = 0;
@@ -292,7 +296,7 @@ static void fill_one(build *b, const tree_node *at)
                                               fill_wave};
     filling f = {b, at, mps__build_phase(b, at, at->key), at->key};
     mps__read_all(at->kind == TREE_TEXT ? at : NULL);
-    if (at->kind == TREE_TEXT) { /* the word `rest`, by the table of keys */
+    if (at->kind == TREE_TEXT) { /* the word `rest`, checked by the table of keys */
         fill_rest(&f);
         return;
     }
@@ -341,7 +345,7 @@ void mps__build_fills(build *b)
     const form *t = &b->tank.form;
     if (mps__case_failed(b->c)) return;
     mps__case_scale_set(b->c, (read_scale){b->dp, NAN, t->hi[1] - t->lo[1]});
-    /* the reader has seen that each item is a map of one fluid */
+    /* the reader guarantees that each item is a map of one fluid */
     for (const tree_node *item = fill->first; item && !mps__case_failed(b->c); item = item->next)
         fill_one(b, item->first);
     for (const tree_node *item = fill->first; item && !mps__case_failed(b->c); item = item->next)

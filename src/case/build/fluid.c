@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fluids: water, air and those of the case. Phases are numbered by falling density, so that a gas is the last. */
+/* Fluids: water, air and those of the case. Phases are numbered by falling density, so that a gas
+ * is the last. */
 #include "build.h"
 #include <math.h>
 #include <stdio.h>
@@ -7,7 +8,7 @@
 #include <string.h>
 #include <strings.h>
 
-/* [Pa s] of water, and of a fluid that has none of its own */
+/* [Pa s] of water, and default of other fluids */
 #define WATER_VISCOSITY 1e-3
 
 static const build_fluid KNOWN[] = {{"water", 1000, WATER_VISCOSITY, NAN, NULL},
@@ -20,7 +21,7 @@ static const build_fluid *find_known(const char *name)
     return NULL;
 }
 
-/* No fluid has this name: the nearest one, as letters of the other case are, or all. */
+/* No fluid has this name: propose the nearest name, ignoring letter case, or list all. */
 static void refuse_name(build *b, const tree_node *at)
 {
     const tree_node *fluids = mps__tree_find(b->root, "fluids");
@@ -95,7 +96,7 @@ int32_t mps__build_phase(build *b, const tree_node *at, const char *name)
 
 void mps__build_fluids_read(build *b)
 {
-    const tree_node *fill = mps__tree_find(b->root, "fill"); /* of one fluid at least */
+    const tree_node *fill = mps__tree_find(b->root, "fill"); /* with at least one fluid */
     for (const tree_node *item = fill->first; item; item = item->next) {
         const tree_node *at = item->first; /* of a map with one key */
         if (find_fluid(b, at->key) >= 0) continue;
@@ -133,7 +134,7 @@ void mps__build_phases(build *b)
         if (!mps__build_try(b, mps_phase_set(b->sim, i, &phase), f->at, f->name)) return;
     }
     for (int32_t i = 0; i < b->fluids;
-         i++) /* the tension of a liquid is that against all lighter ones */
+         i++) /* the tension of a liquid acts against all lighter fluids */
         for (int32_t k = i + 1; k < b->fluids && !isnan(b->fluid[i].tension); k++)
             mps__build_try(b, mps_tension_set(b->sim, i, k, b->fluid[i].tension), b->fluid[i].at,
                            "tension");

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Signed distances of boxes, polygons, cylinders and balls. */
+/* Signed distances of boxes, polygons, cylinders and spheres. */
 #include "form.h"
 #include <math.h>
 #include <string.h>
 
-/* From the distances to several surfaces that bound a convex body, > 0 inside. */
+/* Combine the distances to two surfaces that bound a convex body, > 0 inside. */
 static double meet(double a, double b)
 {
     if (a < 0 && b < 0) return -hypot(a, b);
@@ -31,7 +31,7 @@ static double edge_distance2(const double *a, const double *b, const double *x)
     return dx * dx + dy * dy;
 }
 
-/* By the edges nearest to the point, and by the number of edges that a ray crosses. */
+/* From the nearest edge, and the number of edges that a ray crosses. */
 static double in_polygon(const form *s, const double *x)
 {
     double least = INFINITY;
@@ -69,7 +69,7 @@ static double in_tube(const form *s, const double *x)
                  out = fmax(s->heads - along, along - s->heads - s->length);
     if (s->heads <= 0) return meet(s->radius - r, -out);
     if (out <= 0) return s->radius - r;
-    /* value over slope of the ellipsoid */
+    /* value over gradient of the ellipsoid */
     const double value = hypot(out / s->heads, r / s->radius),
                  slope = hypot(out / (s->heads * s->heads), r / (s->radius * s->radius));
     return value * (1 - value) / slope;
@@ -117,7 +117,7 @@ static void rod_box(form *s)
     double e[3], length2 = 0;
     for (int d = 0; d < 3; d++) e[d] = s->end[1][d] - s->end[0][d];
     for (int d = 0; d < 3; d++) length2 += e[d] * e[d];
-    for (int d = 0; d < 3; d++) { /* half width of a disc across the axis */
+    for (int d = 0; d < 3; d++) { /* half width of a disc along each axis */
         const double reach = s->radius * sqrt(fmax(0, 1 - e[d] * e[d] / length2));
         s->lo[d] = fmin(s->end[0][d], s->end[1][d]) - reach;
         s->hi[d] = fmax(s->end[0][d], s->end[1][d]) + reach;
@@ -169,14 +169,14 @@ static double turn(const double *a, const double *b, const double *c)
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
 }
 
-/* Whether c is on the line from a to b. */
+/* Whether c is on the line segment from a to b. */
 static bool is_on(const double *a, const double *b, const double *c, double area)
 {
     return fabs(area) <= 1e-12 * (pow(b[0] - a[0], 2) + pow(b[1] - a[1], 2)) &&
            (c[0] - a[0]) * (c[0] - b[0]) + (c[1] - a[1]) * (c[1] - b[1]) <= 0;
 }
 
-/* Sides with a point in common meet elsewhere too if one lies on the other. */
+/* Sides with a common point also meet elsewhere if one is on the other. */
 static bool sides_meet(const form *s, int32_t i, int32_t j, double *at)
 {
     const double *a = s->point[i], *b = s->point[(i + 1) % s->points], *c = s->point[j],
@@ -229,7 +229,7 @@ static double below_edge(const double *a, const double *b, double level)
     const double low = fmin(a[1], b[1]), high = fmax(a[1], b[1]), width = b[0] - a[0];
     if (high <= level) return 0.5 * (low + high) * width;
     if (low >= level) return level * width;
-    const double share = (level - low) / (high - low); /* of the edge that is below the level */
+    const double share = (level - low) / (high - low); /* fraction of the edge below the level */
     return (share * 0.5 * (low + level) + (1 - share) * level) * width;
 }
 

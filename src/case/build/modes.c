@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Natural periods of the liquid at rest, by linear theory, with the tank as it is asked for, so that a motion in units of T1 is the same at every
- * spacing.
+/* Natural periods of the liquid at rest by linear theory, for the tank as requested, so that a
+ * motion in units of T1 is the same at every spacing.
  *
- * | tank | by |
+ * | tank | method |
  * |---|---|
  * | rectangular, filled to a depth | w^2 = g k tanh(k h), k = n pi/L |
- * | a section: outlines in 2-D; prisms whose waves run across them | potential flow in it, section.c |
- * | others | the same with L the length of the free surface as filled, h the volume below it over its area: an estimate |
+ * | section: outlines in 2-D; prisms with waves across them | potential flow, section.c |
+ * | others: L of the free surface as filled, h = volume below it/area | as rectangular; estimate |
  *
  * All without solids in the tank. */
 #include "build.h"
@@ -17,12 +17,12 @@
 
 /* The liquid as filled, phase 0. */
 typedef struct liquid {
-    int64_t count, surface,
-        walls;                /* particles; of them within a spacing of the highest; walls there */
-    double top, lo[3], hi[3]; /* of these walls, which lie on the tank */
+    /* numbers of particles, of those within a spacing of the highest, of walls there */
+    int64_t count, surface, walls;
+    double top, lo[3], hi[3]; /* of these walls, which are on the tank */
 } liquid;
 
-/* The highest row may hold a share of its points only: the one below it tells the area. */
+/* The top layer may have only a fraction of its points: the layer below determines the area. */
 static void take_surface(const build *b, liquid *l, const double *x, int32_t kind)
 {
     const double below = (l->top - x[1]) / b->dp;
@@ -59,7 +59,7 @@ static bool take(build *b, liquid *l, bool surface)
     return good && l->count > 0;
 }
 
-/* Along x but for motions across it; without a motion along the longer side. */
+/* Along x unless the motion is transverse; without a motion along the longer side. */
 static int32_t wave_axis(const build *b)
 {
     const tree_node *given = mps__tree_find(b->root, "motion"),
@@ -86,7 +86,7 @@ static void as_asked(build *b, build_modes *m)
 
 enum { SECTION_MODES = 3 };
 
-/* A section whose waves are known by potential flow. */
+/* Waves of a section by potential flow. */
 static bool by_section(build *b, build_modes *m)
 {
     const form *t = &b->tank.form;
@@ -111,7 +111,7 @@ static bool by_section(build *b, build_modes *m)
     return true;
 }
 
-/* The surface reaches from wall to wall. */
+/* The surface extends from wall to wall. */
 static bool as_filled(build *b, build_modes *m)
 {
     liquid l = {0};

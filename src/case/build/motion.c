@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motion of the tank: degrees of a ship as harmonics of the lab. */
+/* Motion of the tank: degrees of freedom of a ship as harmonics in the lab frame. */
 #include "drive.h"
 #include <math.h>
 #include <stdio.h>
@@ -9,7 +9,7 @@ const char *const mps__degrees[MOTION_DEGREES] = {"surge", "sway", "heave", "rol
 
 /* ---- reading ---- */
 
-/* omega, from whichever of the three is given: the reader has seen to it that it is one. */
+/* omega, from the one of the three keys that is given; the reader guarantees exactly one. */
 static double read_omega(build *b, const tree_node *node)
 {
     static const char *const key[] = {"omega", "period", "frequency"};
@@ -93,7 +93,7 @@ static void read_order(build *b, build_motion *m, const tree_node *map)
                       m->of);
 }
 
-/* "x forward, y port, z up": the third word of each pair tells what it is. */
+/* Read centre, bow and axes of the ship, "x forward, y port, z up". */
 void mps__ship_read(build *b, build_motion *m, const tree_node *map)
 {
     static const double forward[4][3] = {{1, 0, 0}, {0, 0, 1}, {-1, 0, 0}, {0, 0, -1}};
@@ -108,7 +108,7 @@ void mps__ship_read(build *b, build_motion *m, const tree_node *map)
     const int32_t axes = mps__read_choice(b->c, map, "axes", 2);
     m->flipped = axes == 2;
     m->ship.axes = axes == 1 ? MPS_SHIP_Z_DOWN : MPS_SHIP_Z_UP;
-    if (b->dim == 3) read_order(b, m, map); /* the plane has one rotation */
+    if (b->dim == 3) read_order(b, m, map); /* in the plane there is one rotation */
     memcpy(m->ship.origin, m->centre, sizeof m->centre);
 }
 
@@ -126,7 +126,8 @@ void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, dou
     double e[3][3];
     *dof = MPS_MOVE_X;
     *sign = 1;
-    if (m->dim == 2 && !m->has_forward && degree == MPS_SHIP_SURGE) return; /* of a tank, no ship */
+    /* of a tank, not a ship */
+    if (m->dim == 2 && !m->has_forward && degree == MPS_SHIP_SURGE) return;
     for (int d = 0; d < 3; d++) {
         e[0][d] = m->ship.forward[d];
         e[2][d] = down * m->ship.up[d];
@@ -141,7 +142,8 @@ void mps__degree_to_lab(const build_motion *m, int32_t degree, int32_t *dof, dou
         }
 }
 
-/* In 2-D a degree moves the tank in the plane x, y, and no two of them are the same motion. */
+/* In 2-D a degree of freedom moves the tank in the plane x, y, and no two of them are the same
+ * motion. */
 void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int32_t degree)
 {
     const bool along = fabs(m->ship.forward[0]) > 0.5;
@@ -172,7 +174,8 @@ void mps__degree_check(build *b, const build_motion *m, const tree_node *at, int
     }
 }
 
-/* The rotations of the library are yaw, pitch, roll of a ship with its bow along x; a single rotation has no order. */
+/* The rotations of the library are yaw, pitch, roll of a ship with its bow along x; a single
+ * rotation has no order. */
 bool mps__motion_parallel(const build_motion *m)
 {
     int rotations = 0;
@@ -188,7 +191,7 @@ static bool is_sum_of_harmonics(const build_motion *m)
     return mps__motion_parallel(m);
 }
 
-/* Of the ship at t, for mps_motion_callback_set(). */
+/* Pose of the ship at t, for mps_motion_callback_set(). */
 static int ship_at(void *user, double t, mps_motion_state *state)
 {
     const build_motion *m = user;
@@ -280,7 +283,8 @@ static void set_drive(build *b, build_motion *m, const tree_node *map, const bui
                    "motion.plugin");
 }
 
-/* Degrees of the lab that a plug-in moves, as those of the ship that are parallel to them. */
+/* Find the degrees of freedom of the lab that a plug-in moves, as those of the ship parallel to
+ * them. */
 static void find_driven(build_motion *m, const build_drive *d, double until)
 {
     enum { SAMPLES = 2000 };

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Columns of how the tank moves, by degrees of the ship: of each degree that a motion has or
- * that is free. */
+/* Columns of the motion of the tank, by degree of freedom of the ship: each one that a motion has
+ * or that is free. */
 #include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
 
-/* A column. In the memory of the case. */
+/* A column, in the memory of the case. */
 typedef struct motion_column {
     const build_motion *motion;
     int32_t degree;
@@ -18,7 +18,8 @@ static double column_value(void *user, mps_sim *sim)
     double t, out[MOTION_DEGREES][3];
     if (mps_motion_state_get(sim, &tank) < 0 || mps_sim_time(sim, &t, NULL) < 0) return NAN;
     mps__motion_degrees(k->motion, &tank, t, out);
-    return (k->degree < MPS_SHIP_ROLL ? 1 : 180 / acos(-1.0)) * out[k->degree][0] + 0.0; /* no -0 */
+    /* avoids -0 */
+    return (k->degree < MPS_SHIP_ROLL ? 1 : 180 / acos(-1.0)) * out[k->degree][0] + 0.0;
 }
 
 void mps__motion_columns(build *b)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables whose spline has accelerations that the motion has not: rows that are coarse or noisy,
- * and velocities that jump from row to row. */
+/* Finds tables whose spline has accelerations that the motion has not: coarse or noisy rows, and
+ * velocities that jump from row to row. */
 #include "ship_motion.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,19 +8,19 @@
 
 enum { ROWS_LEAST = 8, TEXT = 32 };
 
-/* Accelerations below this share of gravity, at the corners of the tank, do not matter. */
+/* Accelerations at the corners of the tank below this fraction of gravity are negligible. */
 static const double NOTHING = 1e-3;
-/* Noise: products of neighbouring second differences sum up to less than this share of their
- * squares; 1: smooth, -2/3: white noise, 0: four rows a period. */
+/* Noise: the sum of products of neighbouring second differences is below this fraction of the sum
+ * of their squares; 1: smooth, -2/3: white noise, 0: four rows per period. */
 static const double ALTERNATES = -0.1;
-/* A jump: a change of velocity of so much of the range of velocities, and beside it less than a
- * share of it. */
+/* A jump: a change of velocity of this fraction of the range of velocities, while its neighbours
+ * change by less than BESIDE times as much. */
 static const double JUMP = 0.1, BESIDE = 0.35;
-/* The frequency of the motion times this is the cut-off that is suggested; the second where
- * noise passes the first. */
+/* The suggested cut-off is the frequency of the motion times ABOVE[0], or times ABOVE[1] if that
+ * passes PASSES times smaller accelerations. */
 static const double ABOVE[2] = {10, 5}, PASSES = 1.5;
 
-/* One degree of the table over the run: rows first .. last. */
+/* One degree of freedom of the table over the run: rows first .. last. */
 typedef struct signal {
     build *b;
     const build_motion *m;
@@ -30,7 +30,7 @@ typedef struct signal {
     double *second; /* [rows] of the spline */
     double *work;   /* [rows] */
     double factor;  /* to degrees, or 1 */
-    double reach;   /* from the centre to the corners of the tank [m], or 1 */
+    double reach;   /* distance from the centre to the corners of the tank [m], or 1 */
     const char *unit;
 } signal;
 
@@ -44,7 +44,7 @@ static double slope(const signal *s, int64_t i)
     return (value(s, i + 1) - value(s, i)) / (s->m->t[i + 1] - s->m->t[i]);
 }
 
-/* Change of velocity at a row between two others. */
+/* Change of velocity at a row between its two neighbours. */
 static double change(const signal *s, int64_t i)
 {
     return slope(s, i) - slope(s, i - 1);
@@ -63,7 +63,8 @@ static const char *amount(const signal *s, double x, const char *per, char out[T
     return out;
 }
 
-/* How often the motion passes its mean line, beyond a tenth of its way, twice a period [Hz]. */
+/* Frequency of the motion [Hz], from crossings of its mean with a hysteresis of a tenth of its
+ * range, two per period. */
 static double frequency(const signal *s)
 {
     const double *t = s->m->t, span = t[s->last] - t[s->first],
@@ -84,7 +85,7 @@ static double frequency(const signal *s)
     return fmax(passes, 1) / (2 * span);
 }
 
-/* Least difference of neighbouring rows that are not equal: the resolution of a log. */
+/* Smallest difference of unequal neighbouring rows: the resolution of a log. */
 static double resolution(const signal *s)
 {
     double least = INFINITY;
@@ -133,7 +134,7 @@ static bool is_jump(const signal *s, int64_t i, double range)
            fabs(s->second[i]) * s->reach > 10 * NOTHING * s->b->gravity;
 }
 
-/* How far the spline passes all rows of the run. */
+/* Difference between the largest values of the spline and of the rows of the run. */
 static double overshoot(const signal *s)
 {
     double most = 0;

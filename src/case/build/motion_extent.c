@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The motion of a case as the run has it: degrees of the ship from those of the tank, and their
- * largest values. */
+/* The motion of a case as the run has it: degrees of freedom of the ship from those of the tank,
+ * and their largest values. */
 #include "ship_motion.h"
 #include <math.h>
 #include <string.h>
@@ -24,7 +24,8 @@ double mps__motion_table_at(const build_motion *m, int32_t degree, double t)
 
 /* ---- degrees of the ship ---- */
 
-/* Near what the case has, but for the way of its spline. */
+/* The prescribed value, with the table interpolated linearly: close to the motion, except for its
+ * spline. */
 static double as_given(const build_motion *m, int32_t degree, double t)
 {
     double q[3];
@@ -51,7 +52,7 @@ void mps__motion_degrees(const build_motion *m, const mps_motion_state *tank, do
             continue;
         }
         const double given = sign * as_given(m, d, t);
-        if (!known) value = given; /* two angles are one: the rates are not known either */
+        if (!known) value = given; /* gimbal lock: the rates are not known either */
         if (d >= MPS_SHIP_ROLL) value += turn * round((given - value) / turn);
         out[d][0] = sign * value;
         out[d][1] = sign * ship.rate[d];
@@ -65,8 +66,8 @@ typedef struct survey {
     build *b;
     build_motion *m;
     const tree_node *map;
-    double at[MOTION_DEGREES][3],
-        beside[MOTION_DEGREES][3]; /* times of the largest values, and to the samples beside them */
+    /* times of the largest values, and distance of adjacent samples */
+    double at[MOTION_DEGREES][3], beside[MOTION_DEGREES][3];
     bool good;
 } survey;
 
@@ -79,7 +80,7 @@ static bool motion_at(survey *s, double t, double out[MOTION_DEGREES][3])
     return s->good;
 }
 
-/* @param step  to the samples beside this one */
+/* @param step  distance of adjacent samples */
 static void sample(survey *s, double t, double step)
 {
     double q[MOTION_DEGREES][3];
@@ -98,7 +99,7 @@ static void sample(survey *s, double t, double step)
     }
 }
 
-/* The largest value lies between the samples beside the largest sample. */
+/* The largest value is between the samples adjacent to the largest sample. */
 static void refine(survey *s, int32_t degree, int k)
 {
     enum { PARTS = 40 };
@@ -125,7 +126,7 @@ static void sample_harmonics(survey *s)
         sample(s, until * (double)i / (double)count, until / (double)count);
 }
 
-/* Rows, and places between them, where the spline is a cubic. */
+/* Sample rows, and points between them, where the spline is a cubic. */
 static void sample_table(survey *s)
 {
     build_motion *m = s->m;

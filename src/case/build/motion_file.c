@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Columns of the file: time, and each degree; -1: not there. */
+/* Columns of the file: time, and each degree of freedom; -1: not found. */
 typedef struct chosen {
     int32_t time, degree[MOTION_DEGREES];
     double factor[1 + MOTION_DEGREES];
@@ -19,7 +19,7 @@ static const tree_node *at_of(const tree_node *map, const char *key)
     return node ? node : mps__tree_find(map, "file");
 }
 
-/* By `columns`, or where a column has the name of a degree. */
+/* Find a column by `columns`, or by the name of a degree of freedom. */
 static int32_t find_column(build *b, const tree_node *map, const mps__csv *t, const char *key)
 {
     const tree_node *columns = mps__tree_find(map, "columns");
@@ -66,8 +66,7 @@ static bool choose(build *b, build_motion *m, const tree_node *map, const mps__c
     return !mps__case_failed(b->c);
 }
 
-/* Columns that are not used, by name. Where `columns` chooses, the others are left out on
- * purpose. */
+/* List unused columns by name. If `columns` selects some, the others are omitted on purpose. */
 static void note_unused(build *b, build_motion *m, const tree_node *map, const mps__csv *t)
 {
     size_t used = 0;
@@ -83,7 +82,7 @@ static void note_unused(build *b, build_motion *m, const tree_node *map, const m
                       t->path, m->unused);
 }
 
-/* f of mps_harmonic with a ramp: the motion grows from 0. */
+/* Ramp factor f of mps_harmonic: the motion grows from 0. */
 static double growth(double t, double ramp)
 {
     const double x = ramp > 0 ? t / ramp : 1;
@@ -103,8 +102,8 @@ static bool check_times(build *b, const tree_node *node, const mps__csv *t, cons
         }
     const double last = m->t[m->rows - 1], rounding = 1e-12 * (fabs(from) + until);
     if (fabs(m->t[0]) <= rounding) m->t[0] = 0;
-    const bool known = b->c->known_errors ==
-                       0; /* else run.until may be in units of a period that is not known */
+    /* otherwise run.until may be in units of a period that is not known */
+    const bool known = b->c->known_errors == 0;
     if (m->rows < 2 || (known && (m->t[0] > 0 || last < until - rounding))) {
         mps__case_say(b->c, node, false,
                       "%s.file: has times from %g s to %g s; the run takes %g s to %g s ('from' "
@@ -115,8 +114,8 @@ static bool check_times(build *b, const tree_node *node, const mps__csv *t, cons
     return true;
 }
 
-/* Times from `from` on and values in SI units. An angle that is written within a turn goes on in
- * the next one. */
+/* Take times from `from` on, and values in SI units. An angle recorded modulo a full rotation is
+ * unwrapped. */
 static bool take_rows(build *b, build_motion *m, const mps__csv *t, const chosen *c)
 {
     const double turn = 2 * acos(-1.0);
@@ -136,8 +135,8 @@ static bool take_rows(build *b, build_motion *m, const mps__csv *t, const chosen
     return true;
 }
 
-/* Loads, roll and pitch grow from 0. The others move nothing as long as they do not change: they
- * grow from where they are at t = 0. */
+/* Loads, roll and pitch grow from 0. The other degrees of freedom have no effect while constant:
+ * they grow from their value at t = 0. */
 static void grow(build_motion *m)
 {
     double first[MOTION_DEGREES] = {0};

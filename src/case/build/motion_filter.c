@@ -1,19 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The spline of a table and its filter. Of rows y_i at t_i the filter makes the z(t) that minimises
+/* The spline of a table and its filter. For rows y_i at t_i the filter finds the z(t) that
+ * minimises
  *   sum_i w_i (y_i - z(t_i))^2 + lambda integral (z'')^2 dt,
  *   lambda = (2 pi f_c)^-4, w_i = (t_i+1 - t_i-1)/2,
- * a natural cubic spline (Reinsch 1967). Of evenly spaced rows it passes the frequency f with
- * 1/(1 + (f/f_c)^4), without phase shift; what is linear in time is kept as it is. lambda = 0 is
- * the spline through the rows that the library makes. */
+ * a natural cubic spline (Reinsch 1967). For evenly spaced rows its gain at the frequency f is 1/(1
+ * + (f/f_c)^4), without phase shift; a linear function of time is unchanged. lambda = 0 is the
+ * interpolating spline that the library makes. */
 #include "ship_motion.h"
 #include <math.h>
 #include <stdlib.h>
 
-/* Below, 1 + 16/(2 pi f_c h)^4 is more than doubles can resolve. */
+/* Below, 1 + 16/(2 pi f_c h)^4 exceeds double precision. */
 static const double LEAST = 5e-4;
 
-/* (R + lambda Q^T W^-1 Q) z'' = Q^T y: five diagonals, of which the matrix has the middle and
- * two above it. */
+/* (R + lambda Q^T W^-1 Q) z'' = Q^T y: a pentadiagonal matrix, stored as diagonal and two upper
+ * diagonals. */
 typedef struct smoothing {
     int64_t rows;
     const double *t;
@@ -51,7 +52,7 @@ static double entry(const smoothing *s, int64_t k, int64_t step)
     return own + s->lambda * sum;
 }
 
-/* Cholesky's L D L^T of a band. */
+/* Cholesky factorisation L D L^T of a band matrix. */
 static void solve(const smoothing *s, double *x)
 {
     const int64_t n = s->rows;

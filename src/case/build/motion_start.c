@@ -1,21 +1,21 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How a motion begins: what the liquid gets in the first steps, and what ramp, from and start do
- * about it. */
+/* The start of a motion: its effect on the liquid in the first steps, and how ramp, from and start
+ * reduce it. */
 #include "check.h"
 #include <math.h>
 #include <string.h>
 
 enum { TEXT = 40, SAMPLES = 40 };
 
-/* Warn of a tank that jumps to this share of the speed of long waves: of a table; of harmonics,
- * which begin so by definition. */
+/* Warn of a tank whose velocity jumps by this fraction of the long-wave speed: for a table; for
+ * harmonics, whose start is a jump by definition. */
 static const double JUMP_OF_TABLE = 0.01, JUMP_OF_HARMONICS = 0.1;
-/* And of one that is at rest. */
+/* For a tank at rest. */
 static const double REST = 1e-4;
-/* A surface that is this share of the depth off the level. */
+/* A surface whose deviation from the level is this fraction of the depth. */
 static const double RISE = 0.01;
-/* A table whose acceleration reaches this share of its largest one at once, and pressures of
- * this share of those at rest. */
+/* A table whose acceleration reaches this fraction of its largest one immediately, and pressures of
+ * this fraction of those at rest. */
 static const double SUDDEN = 0.5, PRESSURE = 0.1;
 
 static double depth_of(const build *b)
@@ -24,8 +24,8 @@ static double depth_of(const build *b)
     return b->modes.count ? b->modes.depth : isfinite(b->depth) ? b->depth : t->hi[1] - t->lo[1];
 }
 
-/* Pressure that a horizontal and a vertical acceleration make [Pa]. A wall pushes half the
- * length of the tank, or of shallow liquid 0.74 depths (Westergaard 1933). */
+/* Pressure due to a horizontal and a vertical acceleration [Pa]. A wall acts on half the length of
+ * the tank, or in shallow liquid on 0.74 depths (Westergaard 1933). */
 static double pressure_of(const build *b, const double a[2])
 {
     const form *t = &b->tank.form;
@@ -109,7 +109,7 @@ bool mps__motion_begin(build *b, motion_begin *s)
     s->tilt = acos(fmin(1, up[1]));
     for (int d = 0; d < b->dim; d += 2)
         s->rise += fabs(up[d]) / fmax(up[1], 1e-3) * 0.5 * (t->hi[d] - t->lo[d]);
-    /* a table has none at its first row: those of the first twentieth of a wave */
+    /* a table has no acceleration at its first row: use the first twentieth of a wave */
     const double span = b->modes.count ? 0.05 * b->modes.period[0] : 0;
     for (int i = 0; i <= SAMPLES && pose_at(b, fmin(b->until, span * i / SAMPLES), &p); i++) {
         double v[2], a[2];
@@ -121,7 +121,7 @@ bool mps__motion_begin(build *b, motion_begin *s)
     return true;
 }
 
-/* Accelerations of the corners are at most about this. */
+/* Approximate upper bound of accelerations of the corners. */
 static double most_accel(const build *b)
 {
     double sum = 0;

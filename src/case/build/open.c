@@ -5,7 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A text of the library in the words of case files: keys in place of members of structs and of functions. */
+/* An error text of the library in the words of case files: keys instead of members of structs and
+ * of functions. */
 static const char *in_keys(const char *text, char *out, size_t size)
 {
     static const char *const word[][2] = {{"probe.at[0]", "x of its place"},
@@ -61,7 +62,7 @@ void *mps__build_alloc(build *b, size_t size)
 
 /* ---- messages ---- */
 
-/* Before there is a job they are kept; then it says them. */
+/* Log messages are kept until there is a job, which then logs them. */
 static void keep(void *user, int level, const char *text)
 {
     build_log *log = user;
@@ -90,7 +91,7 @@ static bool has_model(const build *b, const char *slot)
     return false;
 }
 
-/* A text or a list of texts, each for a call of the library. */
+/* Call a function of the library for a text, or for each text of a list. */
 static void for_names(build *b, const char *key, mps_status (*call)(mps_sim *, const char *))
 {
     const tree_node *node = mps__tree_find(b->root, key);
@@ -100,12 +101,12 @@ static void for_names(build *b, const char *key, mps_status (*call)(mps_sim *, c
         mps__build_try(b, call(b->sim, at->text), at, key);
 }
 
-/* "slot.key"; the slot may be a full name, so the key begins behind the last dot. */
+/* Apply "slot.key"; the slot may be a full name, so the key begins after the last dot. */
 static void set_one(build *b, const tree_node *at)
 {
     char slot[96];
     const char *dot = strrchr(at->key, '.');
-    if (mps__drive_has(b, at->key)) return; /* who uses the load or motion reads it */
+    if (mps__drive_has(b, at->key)) return; /* read where the load or motion is used */
     const double value = mps__read_setting(b->c, at, NAN);
     if (!dot || isnan(value)) return;
     snprintf(slot, sizeof slot, "%.*s", (int)(dot - at->key), at->key);
@@ -119,7 +120,7 @@ static void use_models(build *b)
         return;
     for_names(b, "remove", mps_model_remove);
     for_names(b, "use", mps_model_use);
-    /* pressures need an up; what is to be compared has the name of its reason */
+    /* without gravity pressures have no vertical reference */
     if (b->gravity == 0 && has_model(b, "reference"))
         mps__build_try(b, mps_model_remove(b->sim, "reference"), b->root, "gravity");
     const tree_node *settings = mps__tree_find(b->root, "settings");
@@ -165,7 +166,8 @@ static void create(build *b, const tree_node *run, const mps_job_config *options
     config.dp = b->dp;
     config.gravity[1] = -b->gravity;
     b->scale = config.velocity_scale = mps__read_number(b->c, run, "velocity_scale", 0);
-    if (b->paper && b->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
+    /* W22 (Wen, Zhao & Wan 2022); no paper has a value for 3-D */
+    if (b->paper && b->dim == 2) config.re_far = 4.1;
     const tree_node *kernel = mps__tree_find(b->root, "kernel");
     config.kernel = mps__read_text(b->c, kernel, "name", config.kernel);
     if (mps__tree_find(kernel, "near"))
@@ -203,7 +205,7 @@ void mps__build_open(build *b, const mps_job_config *options)
     if (!mps__case_failed(b->c)) use_solver(b, run);
 }
 
-/* Growth is a ratio of two steps and keeps its value; dt_min ends a run. */
+/* Growth is a ratio of two steps and is not scaled; dt_min ends a run. */
 static void scale_steps(mps_time_control *control, double factor)
 {
     control->dt *= factor;

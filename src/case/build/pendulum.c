@@ -3,7 +3,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Torsion constant of a rectangle a x b, b <= a, by St Venant: what a closed box of liquid lacks of the inertia of a solid. */
+/* Torsion constant of a rectangle a x b, b <= a, by St Venant: the moment of inertia that liquid in
+ * a closed box lacks in comparison with a solid. */
 static double torsion(double a, double b)
 {
     const double pi = acos(-1.0);
@@ -66,7 +67,7 @@ double mps__pendulum_stiffness(const pendulum *p, bool turn, double w)
     return -load;
 }
 
-/* K - w^2 M with the liquid, times what removes its first two poles. */
+/* K - w^2 M with the liquid, multiplied by the factors of its first two poles. */
 static double residual(const pendulum *p, bool turn, double mass, double stiffness, double w)
 {
     const double s = w * w;
@@ -81,7 +82,7 @@ void mps__pendulum_periods(const pendulum *p, bool turn, double mass, double sti
     const double most = sqrt(0.5 * (p->w2[1] + p->w2[2]));
     int found = 0;
     period[0] = period[1] = NAN;
-    /* parts end off the poles themselves */
+    /* intervals end off the poles */
     for (int i = 0; i < PARTS && found < 2; i++) {
         double low = most * (i + 0.3) / PARTS, high = most * (i + 1.3) / PARTS;
         const bool negative = residual(p, turn, mass, stiffness, low) < 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Known values beside the results, figures between two times, and what summary.json says about the case. */
+/* Reference values of results, figures between two times, and the case in summary.json. */
 #include "build.h"
 #include "case_csv.h"
 #include "body.h"
@@ -17,7 +17,7 @@ typedef struct series {
     char unit[BUILD_NAME];
 } series;
 
-/* The SI unit of a value as columns of probes.csv have it. */
+/* The SI unit of a value as in columns of probes.csv. */
 static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
 {
     static const struct {
@@ -36,7 +36,8 @@ static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
         }
 }
 
-/* Times that go back are of another column, or of several tables one after the other. @param t  NULL: they are in the case */
+/* Times that decrease belong to another column, or to several concatenated tables.
+ * @param t  NULL: they are in the case */
 static bool check_times(build *b, const tree_node *node, const mps__csv *t, const series *s)
 {
     char line[32] = "";
@@ -182,7 +183,7 @@ static void add_input(build *b, const char *key, const char *value)
     if (b->job) mps__build_try_job(b, mps_job_input_add(b->job, key, value), b->root, key);
 }
 
-/* Constants of the statistics in SI, for programs that read summary.json and know no T1. */
+/* Constants of the statistics in SI, for programs that read summary.json without T1. */
 static bool add_constant(build *b, const tree_node *node, const char *path)
 {
     static const struct {
@@ -201,7 +202,7 @@ static bool add_constant(build *b, const tree_node *node, const char *path)
     return true;
 }
 
-/* Each value of the tree under its path. */
+/* Add each value of the tree under its path. */
 static void add_node(build *b, const tree_node *node)
 {
     char path[PATH_ROOM], text[2 * BUILD_TEXT];
@@ -226,7 +227,8 @@ static void add_node(build *b, const tree_node *node)
     add_input(b, mps__tree_path(node, path, sizeof path), text);
 }
 
-/* The lowest frequency of the motion, if all others are multiples of it [rad/s]; NAN: it has no period. */
+/* The lowest frequency of the motion, if all others are its multiples [rad/s]; NAN: not
+ * periodic. */
 static double motion_omega(const build_motion *m)
 {
     double least = INFINITY;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run goes on with the case that it began with: a record of two tanks or two motions is of no use. */
+/* Checks that a run continues with the case it began with: a record of two tanks or two motions is
+ * useless. */
 #include "build.h"
 #include <stdio.h>
 #include <string.h>
@@ -7,7 +8,7 @@
 
 enum { VALUE_SHOWN = 60 };
 
-/* What may differ: it does not change a value of the files of rows. */
+/* Keys that may differ: they change no value in the files of rows. */
 static bool is_free(const char *path)
 {
     static const char *const all[] = {"title",          "impacts",
@@ -33,14 +34,14 @@ static bool may_hold_free(const tree_node *n)
            (strcmp(n->key, "run") == 0 || strcmp(n->key, "output") == 0);
 }
 
-/* A difference: the value that is not the same; NULL on the side that has none. */
+/* A difference: the value that differs; NULL on the side that has none. */
 typedef struct difference {
     const tree_node *before, *now;
 } difference;
 
 static bool differ(const tree_node *before, const tree_node *now, difference *d);
 
-/* Children of a map of which only one side may be given. */
+/* Compare children of two maps, which may be given on one side only. */
 static bool maps_differ(const tree_node *before, const tree_node *now, difference *d)
 {
     for (const tree_node *a = before ? before->first : NULL; a; a = a->next)
@@ -99,7 +100,7 @@ mps_status mps__build_resumed(const mps_case *c, const mps_job_config *options)
     difference d;
     snprintf(path, sizeof path, "%s/case.yaml", options->folder ? options->folder : "");
     if (!options->resume || stat(path, &there) != 0) return MPS_OK;
-    /* both as they are run, with names of files relative to the same folder */
+    /* both as run, with file names relative to the same folder */
     const char *text = mps_case_text(c);
     mps_status status = mps_case_read(path, 0, NULL, &before);
     if (status == MPS_OK) status = mps_case_read_text(text, strlen(text), path, 0, NULL, &now);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finite volumes on square cells that the outline cuts. Unknowns are the potentials of cells and of the pieces of the surface; the matrix K has the
- * conductances of faces, M the lengths of the pieces. K u = value M u is solved by inverse iteration, with conjugate gradients inside. */
+/* Finite volumes on square cells cut by the outline. Unknowns are the potentials of cells and of
+ * the pieces of the surface; the matrix K has the conductances of faces, M the lengths of the
+ * pieces. K u = value M u is solved by inverse iteration with conjugate gradients. */
 #include "section.h"
 #include <math.h>
 #include <stdlib.h>
@@ -14,8 +15,8 @@ typedef struct section {
     int32_t nx, ny; /* cells; the pieces of the surface are row ny */
     double h[2];
     int64_t n;
-    double *east,
-        *north; /* [n] conductances to the next cell; those of row ny - 1 to the north lead to the surface */
+    /* [n] conductances to the next cell; from row ny - 1 north to the surface */
+    double *east, *north;
     double *piece; /* [nx] lengths of the surface */
     double *sum;   /* [n] diagonal of K */
     double *work;  /* [4 n] */
@@ -30,7 +31,7 @@ static void free_section(section *s)
     free(s->work);
 }
 
-/* Share of a face between two points that is inside. */
+/* Fraction of a face between two points that is inside. */
 static double open_share(const form *f, const double *a, const double *b)
 {
     const double da = mps__form_inside(f, a), db = mps__form_inside(f, b);
@@ -72,8 +73,8 @@ static bool make_section(section *s, const form *f, double level)
     return true;
 }
 
-/* Each row with the terms of the cells before it first: in this order rounding is that of sums by
- * faces. The loop of the cells that have all neighbours has no branch and no order between rows. */
+/* Each matrix row sums the terms of preceding cells first: its rounding is then that of a sum by
+ * faces. The loop of interior cells has no branch and no dependence between rows. */
 static double multiply_row(const section *s, const double *x, int64_t k)
 {
     double sum = s->sum[k] * x[k];
@@ -102,7 +103,7 @@ static double dot(const section *s, const double *a, const double *b)
     return sum;
 }
 
-/* Product by M: of the surfaces of two fields. */
+/* Inner product with M of two fields: over the surface. */
 static double dot_surface(const section *s, const double *a, const double *b)
 {
     const int64_t top = (int64_t)s->nx * s->ny;
@@ -111,7 +112,7 @@ static double dot_surface(const section *s, const double *a, const double *b)
     return sum;
 }
 
-/* z = r over the diagonal. Sums of r r and r z wait for no sum of the other. @return r r */
+/* z = r/diagonal. The sums of r r and r z are independent. @return r r */
 static double precondition(const section *s, const double *r, double *z, double *rz)
 {
     double rr = 0, sum = 0;
@@ -124,7 +125,7 @@ static double precondition(const section *s, const double *r, double *z, double 
     return rr;
 }
 
-/* Solve K x = b from the x that is there. @return false: not solved */
+/* Solve K x = b with the initial guess x. @return false: not converged */
 static bool solve(const section *s, const double *b, double *x)
 {
     double *r = s->work, *p = r + s->n, *q = p + s->n, *z = q + s->n, rz = 0, now;
@@ -147,7 +148,7 @@ static bool solve(const section *s, const double *b, double *x)
     return false;
 }
 
-/* Take out the constant and the modes before, and make the surface of length 1. */
+/* Orthogonalise to the constant and the previous modes, and normalise on the surface. */
 static void purify(const section *s, double *u, const double *modes, int32_t count)
 {
     double length = 0, sum = 0;
@@ -173,7 +174,7 @@ static mps_status find_mode(const section *s, double *modes, int32_t m, double *
     if (!load) return MPS_E_NOMEM;
     double *x = load + s->n;
     bool good = true, settled = false;
-    for (int32_t i = 0; i < s->nx; i++) /* as in a rectangular tank, and a little of all others */
+    for (int32_t i = 0; i < s->nx; i++) /* mode of a rectangular tank, plus all others */
         u[top + i] = cos((m + 1) * acos(-1.0) * (i + 0.5) / s->nx) + 0.01 * ((i * 7919) % 13 - 6);
     purify(s, u, modes, m);
     for (int32_t round = 0; round < ROUNDS && good && !settled; round++) {

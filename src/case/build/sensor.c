@@ -25,7 +25,7 @@ static build_sensor *note(build *b, const char *name, sensor_kind kind)
     return s;
 }
 
-/* Where the probe of this name has come to lie. */
+/* Record the final position of the probe of this name. */
 static void note_probe(build *b, const char *name, const mps_probe *probe, int32_t component)
 {
     static const sensor_kind kind[] = {SENSOR_WALL, SENSOR_FLUID, SENSOR_GAUGE, SENSOR_FORCE};
@@ -89,7 +89,7 @@ bool mps__sensor_value(const sensing *s, const char *name, const char *unit, con
 
 /* ---- kinds ---- */
 
-/* Diameter, mean, rate and normal, as far as the probe has them. */
+/* Diameter, mean, rate and normal, if the probe has them. */
 static void read_common(const sensing *s, mps_probe *probe)
 {
     build *b = s->b;
@@ -146,7 +146,8 @@ double mps__still_level(build *b)
     return b->level = level;
 }
 
-/* Height of the floor below a place: where a line upwards enters the tank. Of a file it is the lower end of its box. */
+/* Height of the floor below a position: where a vertical line enters the tank. For a file it is the
+ * lower end of its box. */
 static double floor_below(const build *b, const double *x)
 {
     const form *t = &b->tank.form;
@@ -156,7 +157,7 @@ static double floor_below(const build *b, const double *x)
     return at[1] < t->hi[1] ? at[1] : t->lo[1];
 }
 
-/* The line of a gauge begins in the tank or on its wall, and not within a solid: else it never
+/* The line of a gauge begins in the tank or on its wall, and not inside a solid: otherwise it never
  * meets the liquid. */
 static void check_foot(const sensing *s, const mps_probe *probe)
 {
@@ -168,7 +169,7 @@ static void check_foot(const sensing *s, const mps_probe *probe)
     for (int32_t d = 0; d < b->dim; d++)
         outside = outside || probe->at[d] < t->lo[d] - slack || probe->at[d] > t->hi[d] + slack;
     const double begin[3] = {probe->at[0], probe->at[1] + 0.25 * b->dp, probe->at[2]};
-    for (int32_t i = 0; !outside && i < b->solids; i++) { /* a foot may be on the face of one */
+    for (int32_t i = 0; !outside && i < b->solids; i++) { /* a foot may be on a face */
         const build_solid *o = &b->solid[i];
         if (o->plate || o->file || mps__form_inside(&o->form, begin) <= slack) continue;
         mps__case_say(b->c, at, false,
@@ -189,8 +190,8 @@ static void check_foot(const sensing *s, const mps_probe *probe)
                       s->map->key, text[0], text[1], text[2]);
 }
 
-/* "x", in 3-D "x z", or a whole point: the line begins there. Coordinates are those of the
- * case, as of all sensors. */
+/* "x", in 3-D "x z", or a whole point: the foot of the line. Coordinates are those of the case, as
+ * for all sensors. */
 static void add_gauge(const sensing *s)
 {
     build *b = s->b;
@@ -215,7 +216,7 @@ static void add_gauge(const sensing *s)
     if (!mps__case_failed(b->c)) mps__sensor_add(s, &probe, 0, level - probe.at[1], s->map->key);
 }
 
-/* Names of measures have '_' for blanks. */
+/* Names of measures have '_' instead of blanks. */
 static void add_measure(const sensing *s)
 {
     build *b = s->b;
@@ -248,7 +249,7 @@ static void add_measure(const sensing *s)
     if (b->job) mps__build_try_job(b, mps_job_measure_add(b->job, b->sim, &m), s->map, s->map->key);
 }
 
-/* The box of a measure: as given, or that of the tank, as built for the front. */
+/* The box of a measure: as given, or that of the tank; for the front as built. */
 void mps__sensor_box(const build *b, const char *measure, bool given, double (*box)[3], double *out)
 {
     const build_tank *t = &b->tank;
@@ -280,7 +281,8 @@ void mps__build_sensors(build *b)
     const tree_node *map = mps__tree_find(b->root, "sensors");
     if (b->status < 0) return;
     for (const tree_node *at = map ? map->first : NULL; at; at = at->next) {
-        if (mps__case_failed(b->c)) mps__case_go_on(b->c, true); /* a sensor needs no other */
+        /* sensors are independent of each other */
+        if (mps__case_failed(b->c)) mps__case_go_on(b->c, true);
         add_sensor(b, at);
     }
 }

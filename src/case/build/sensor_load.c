@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load of the liquid on the tank and acceleration of its centre, by degrees of the ship: by the momentum of the liquid, or by pressures on walls. */
+/* Load of the liquid on the tank and acceleration of its centre, by degree of freedom of the ship:
+ * from the momentum of the liquid, or from pressures on walls. */
 #include "sensor_load.h"
 #include <math.h>
 #include <stdio.h>
@@ -8,10 +9,10 @@
 /* Words of sensors.*.load. */
 enum { LOAD_MOMENTUM, LOAD_WALLS };
 
-/* One component. In the memory of the case. */
+/* One component, in the memory of the case. */
 typedef struct part {
     double centre[3], sign;
-    int32_t dof, probe; /* probe: -1: by momentum */
+    int32_t dof, probe; /* probe -1: by momentum */
     bool acceleration;
 } part;
 
@@ -41,7 +42,7 @@ bool mps__degree_here(const build_motion *m, int32_t degree, int32_t *dof, doubl
     return m->has_forward || degree > MPS_SHIP_SWAY || (degree == MPS_SHIP_SWAY) == sway;
 }
 
-/* A column of a degree. */
+/* A column of a degree of freedom. */
 static bool add_part(const sensing *s, const char *name, int32_t degree, const part *like)
 {
     static const char *const unit[2][2][2] = {{{"N/m", "N m/m"}, {"m/s2", "rad/s2"}},
@@ -78,7 +79,7 @@ bool mps__load_columns(const sensing *s, const char *name, const double *centre,
     return true;
 }
 
-/* A probe of all walls that is no column itself. @return false: there is a message */
+/* A probe of all walls without a column of its own. @return false: there is a message */
 static bool add_probe(const sensing *s, const double *centre, int32_t *id)
 {
     char name[2 * BUILD_NAME];

@@ -11,7 +11,7 @@ enum { CELLS_MOST = 1000, CELLS_LISTED = 16 };
 /* Words of sensors.*.take. */
 enum { TAKE_LARGEST, TAKE_MEAN, TAKE_PLACE };
 
-/* Probes of which one value is made. In the memory of the case. */
+/* Probes that are reduced to one value, in the memory of the case. */
 typedef struct row {
     int32_t count, take;
     double spacing; /* of a row [m] */
@@ -32,13 +32,13 @@ static double row_value(void *user, mps_sim *sim)
     return r->take == TAKE_MEAN ? sum / r->count : r->take == TAKE_PLACE ? place : most;
 }
 
-/* The row of cell i of a panel that is so many cells wide. */
+/* The row of cell i of a panel with `across` cells per row. */
 static int32_t row_of(int32_t i, int32_t across)
 {
     return i / across;
 }
 
-/* Wall probes at places; named ones are columns too. */
+/* Wall probes at positions; those with names are columns too. */
 static bool add_cells(const sensing *s, mps_probe *probe, double (*at)[3], row *r, bool columns)
 {
     build *b = s->b;
@@ -56,7 +56,7 @@ static bool add_cells(const sensing *s, mps_probe *probe, double (*at)[3], row *
             done = mps__build_try(b, mps_probe_add(b->sim, probe, &r->id[i]), s->map, s->map->key);
         }
     }
-    probe->name = NULL; /* that of the last stood here */
+    probe->name = NULL; /* still points to the name of the last one */
     return done;
 }
 
@@ -80,7 +80,8 @@ static void begin(const sensing *s, mps_probe *probe)
 
 /* ---- panels ---- */
 
-/* Corners and sides of a panel: 2 points in 2-D; 3 or 4 corners in turn in 3-D, or 2 opposite ones of a panel along the axes. */
+/* Corners and sides of a panel: 2 points in 2-D; 3 or 4 consecutive corners in 3-D, or 2 opposite
+ * ones of a panel along the axes. */
 static bool read_panel(const sensing *s, double *corner, double (*side)[3])
 {
     build *b = s->b;
@@ -180,7 +181,7 @@ void mps__sensor_row(const sensing *s)
 
 /* ---- forces ---- */
 
-/* Force or moment along an axis of the ship. In the memory of the case. */
+/* Force or moment along an axis of the ship, in the memory of the case. */
 typedef struct ship_load {
     mps_ship ship;
     int32_t probe, axes, component;
@@ -197,7 +198,7 @@ static double load_value(void *user, mps_sim *sim)
     return status < 0 ? NAN : l->sign * load[l->component];
 }
 
-/* Columns along the axes of the ship; the probe itself is no column. */
+/* Columns along the axes of the ship; the probe itself has no column. */
 static void add_ship_loads(const sensing *s, mps_probe *probe, int32_t chosen, int32_t axes)
 {
     static const char *const name[] = {"surge", "sway", "heave", "roll", "pitch", "yaw"};
@@ -230,7 +231,8 @@ static void add_ship_loads(const sensing *s, mps_probe *probe, int32_t chosen, i
     }
 }
 
-/* A tank on a lattice has its faces as parts, whose common beginning is "tank."; a body has its name. */
+/* A tank on a lattice has one part per face, with the common prefix "tank."; a body has its
+ * name. */
 static const char *find_part(const build *b, const char *name, char *buffer, size_t size)
 {
     if (strcmp(name, "all") == 0) return NULL;

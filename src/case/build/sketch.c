@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tank, liquid and sensors as SVG: a section through the middle of the tank, in 3-D one along each horizontal axis, with the names of the
- * sensors beside it. */
+/* Draws tank, liquid and sensors as SVG: a section through the middle of the tank, in 3-D one along
+ * each horizontal axis, with the names of the sensors beside it. */
 #include "page_text.h"
 #include "ship_motion.h"
 #include <math.h>
@@ -16,9 +16,9 @@ enum { EMPTY = 0, WALL = 32 }; /* of a cell; fluids are 1 + phase */
 typedef struct drawing {
     build *b;
     FILE *file;
-    int axis;                   /* that goes to the right: x or z */
+    int axis;                   /* horizontal axis of the picture: x or z */
     double head;                /* upper end in the picture */
-    double lo[2], hi[2], scale; /* the tank with its walls [m]; units of the picture over m */
+    double lo[2], hi[2], scale; /* the tank with its walls [m]; units of the picture per m */
     double cell;
     int32_t columns, rows;
     uint8_t *cells;
@@ -50,7 +50,7 @@ static void frame(drawing *d)
     d->rows = (int32_t)(height / d->cell) + 1;
 }
 
-/* All cells that a particle covers, walls thinner than fluid; a wall shows over a fluid. */
+/* Mark all cells that a particle covers, walls thinner than fluid; walls are drawn over fluid. */
 static void cover(drawing *d, const double *x, uint8_t value)
 {
     const double reach = (value == WALL ? 0.3 : 0.5) * d->b->dp;
@@ -66,7 +66,7 @@ static void cover(drawing *d, const double *x, uint8_t value)
         }
 }
 
-/* In 3-D the particles within a spacing of the middle. */
+/* In 3-D, mark particles within a spacing of the middle. */
 static bool mark(drawing *d)
 {
     build *b = d->b;
@@ -88,7 +88,7 @@ static bool mark(drawing *d)
     return good;
 }
 
-/* Runs of equal cells, row by row. */
+/* Draw runs of equal cells, line by line. */
 static void draw_cells(const drawing *d)
 {
     static const char *const colour[] = {"#7fb3df", "#f3e3b5", "#a5d6a7", "#e0b0d5"};
@@ -145,7 +145,7 @@ static bool has_place(const build_sensor *s)
     return s->kind == SENSOR_WALL || s->kind == SENSOR_FLUID || s->kind == SENSOR_GAUGE;
 }
 
-/* Where a line upwards leaves the tank; of a file, the upper end of its box. */
+/* Where a vertical line leaves the tank; for a file, the upper end of its box. */
 static double gauge_end(const drawing *d, const build_sensor *s)
 {
     const form *t = &d->b->tank.form;
@@ -168,7 +168,8 @@ static void draw_mark(const drawing *d, const build_sensor *s)
         fprintf(d->file, "<circle cx='%.1f' cy='%.1f' r='4' fill='#b00' stroke='#fff'/>\n", x, y);
 }
 
-/* Names in the margin on the side of the sensor, from the top downwards, each with a line to its mark. */
+/* Names in the margin on the side of the sensor, from the top downwards, each with a line to its
+ * mark. */
 static void draw_names(const drawing *d, bool right)
 {
     const build *b = d->b;
@@ -176,7 +177,7 @@ static void draw_names(const drawing *d, bool right)
                  edge = right ? WIDTH - MARGIN + 14 : MARGIN - 14;
     double last = d->head - LINE, before = INFINITY;
     for (;;) {
-        const build_sensor *next = NULL; /* the highest below the one before */
+        const build_sensor *next = NULL; /* the highest one below the previous one */
         double top = -INFINITY;
         for (int32_t i = 0; i < b->sensors; i++) {
             const build_sensor *s = &b->sensor[i];
@@ -204,7 +205,8 @@ static void draw_names(const drawing *d, bool right)
 
 /* ---- all ---- */
 
-/* A cross at the centre of rotation, where it is in the picture; its place in words below it. */
+/* A cross at the centre of rotation, if it is in the picture; its position as a text below the
+ * picture. */
 static void draw_centre(const drawing *d)
 {
     const build_motion *m = d->b->motion;
@@ -217,7 +219,7 @@ static void draw_centre(const drawing *d)
             x - 6, y, x, y - 6, x + 8, y - 4);
 }
 
-/* What the numbers of the picture are. */
+/* Explain the numbers of the picture. */
 static void draw_words(const drawing *d, double y)
 {
     const build *b = d->b;
@@ -258,7 +260,7 @@ static void draw(const drawing *d)
     draw_words(d, at_y(d, d->lo[1]) + 24);
 }
 
-/* One section below `head`; it moves to the end of the section. */
+/* Draw one section below `head`, and advance it to the end of the section. */
 static bool add_section(build *b, FILE *file, int axis, double *head)
 {
     drawing d = {.b = b, .file = file, .axis = axis, .head = *head};

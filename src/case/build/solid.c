@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solids in the tank: plates with holes, boxes, cylinders, balls, prisms, files. */
+/* Solids in the tank: plates with holes, boxes, cylinders, spheres, prisms, files. */
 #include "build.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* [dp]: by how much the lattice may change the faces of a box; boxes thinner than this are no bodies of any shape. */
+/* [dp]: largest change of the faces of a box by the lattice; thinner boxes are no bodies of
+ * arbitrary shape. */
 static const double off_lattice = 0.1, thin_box = 3;
 
-/* What is being read. */
+/* The solid being read. */
 typedef struct reading {
     build *b;
     const tree_node *map;
@@ -24,7 +25,8 @@ static void say(const reading *r, const char *key, const char *text)
 
 /* ---- plates ---- */
 
-/* Slots of a plate: every `pitch` along its first side one of length `gap`, in the middle of its pitch; shares of the side. */
+/* Slots of a plate: one of length `gap` in the middle of each `pitch` along its first side;
+ * fractions of the side. */
 typedef struct openings {
     int32_t count;
     double pitch, gap;
@@ -33,11 +35,11 @@ typedef struct openings {
 /* A plate: a corner and one or two edges. */
 typedef struct plate {
     double corner[3], edge[2][3], length[2];
-    int32_t axis; /* across which it lies flat on the lattice; -1: inclined */
+    int32_t axis; /* normal axis of a plate on the lattice; -1: inclined */
     double thickness;
 } plate;
 
-/* Whole pitches: the pitch given is changed to the nearest one that divides the side. */
+/* The pitch is changed to the nearest one that divides the side. */
 static openings read_openings(reading *r, const plate *p)
 {
     openings o = {0};
@@ -68,7 +70,7 @@ static int32_t flat_across(const plate *p, int dim)
     for (int d = 0; d < dim; d++) {
         const double off = fabs(p->edge[0][d]) + fabs(p->edge[1][d]);
         if (off < 1e-9 * (p->length[0] + p->length[1])) {
-            int along = 0; /* edges along axes of the lattice */
+            int along = 0; /* number of edges along axes of the lattice */
             for (int e = 0; e < dim - 1; e++)
                 for (int k = 0; k < dim; k++)
                     along += fabs(fabs(p->edge[e][k]) - p->length[e]) < 1e-9 * p->length[e];
@@ -78,7 +80,8 @@ static int32_t flat_across(const plate *p, int dim)
     return -1;
 }
 
-/* From two points in 2-D, two opposite corners or three corners in 3-D. Points without z reach from side to side. */
+/* From two points in 2-D, two opposite corners or three corners in 3-D. Points without z span the
+ * width. */
 static bool read_plate(reading *r, plate *p)
 {
     build *b = r->b;
@@ -86,7 +89,7 @@ static bool read_plate(reading *r, plate *p)
     double x[3][3];
     *p = (plate){.axis = -1};
     const int32_t count = mps__build_points(b, node, NAN, 3, x);
-    if (count < 2) return false; /* and said why */
+    if (count < 2) return false; /* there is a message */
     const form *t = &b->tank.form;
     for (int32_t i = 0; i < count; i++)
         if (isnan(x[i][2])) x[i][2] = b->dim == 2 ? 0 : i == 0 ? t->lo[2] : t->hi[2];
@@ -96,7 +99,7 @@ static bool read_plate(reading *r, plate *p)
         if (count == 3) {
             p->edge[0][d] = across;
             p->edge[1][d] = x[2][d] - x[0][d];
-        } else { /* opposite corners of a plate whose edges are along z and in x, y, or along x and y */
+        } else { /* opposite corners, edges along z and in x, y, or along x and y */
             const bool first = b->dim == 2 || (x[1][2] == x[0][2] ? d == 0 : d != 2);
             p->edge[first ? 0 : 1][d] = across;
         }
@@ -113,14 +116,15 @@ static bool read_plate(reading *r, plate *p)
     return !mps__case_failed(b->c);
 }
 
-/* The nearest plane of the lattice, the walls of the tank included. */
+/* The nearest plane of the lattice, including the walls of the tank. */
 static double on_lattice(const double *origin, const double *h, int d, double x)
 {
-    /* midway between two planes rounding does not decide */
+    /* midway between two planes the choice is independent of rounding */
     return origin[d] + floor((x - origin[d]) / h[d] + 0.5 + 1e-6) * h[d];
 }
 
-/* What a plate on the lattice became: the part between two slots as shares of the first side, and its place across. */
+/* Record a plate as built on the lattice: the part between two slots as fractions of the first
+ * side, and its position along its normal. */
 static void note_piece(reading *r, const plate *p, const double *built)
 {
     build_solid *out = r->out;
@@ -139,7 +143,8 @@ static void note_piece(reading *r, const plate *p, const double *built)
     memcpy(out->piece[out->pieces++], along, sizeof along);
 }
 
-/* In whole columns of the lattice, as near to its place as they are: n columns are n - 1 cells thick. */
+/* Round to whole columns of the lattice nearest to its position: n columns are n - 1 cells
+ * thick. */
 static bool add_flat(reading *r, const plate *p, const double *from, const double *to)
 {
     build *b = r->b;
@@ -209,7 +214,8 @@ void mps__solid_piece(const build_solid *s, int32_t i, double part[2])
 
 /* ---- bodies ---- */
 
-/* Faces of a box that touch walls of a rectangular tank go through them: walls below the box are then in it, and not wetted. */
+/* Faces of a box that touch walls of a rectangular tank are extended through them: walls below the
+ * box are then inside it, and not wetted. */
 static void enter_walls(const build *b, form *s)
 {
     const form *t = &b->tank.form;
@@ -220,7 +226,8 @@ static void enter_walls(const build *b, form *s)
     }
 }
 
-/* A body of any shape. Its box reaches a little beyond its surface, and not far beyond the tank. */
+/* A body of arbitrary shape. Its bounding box extends slightly beyond its surface, and is clipped
+ * near the tank. */
 static void add_body(reading *r, const char *key)
 {
     mps_solid solid;
@@ -239,7 +246,8 @@ static void add_body(reading *r, const char *key)
     mps__build_try(r->b, mps_solid_add(r->b->sim, &solid), mps__tree_find(r->map, key), r->name);
 }
 
-/* Whether a box has its size within a tenth of a spacing on the lattice; then, or where it is too thin for a body, its corners there. */
+/* Whether a box on the lattice has its size within a tenth of a spacing, or is too thin for a body;
+ * then its corners on the lattice. */
 static bool box_on_lattice(const reading *r, const form *box, double *lo, double *hi)
 {
     const build *b = r->b;
@@ -343,7 +351,8 @@ static void add_file(reading *r)
 
 /* ---- all ---- */
 
-/* The library refuses a part beyond the 64th, of which the tank is one at least: there is room for all solids. */
+/* The library refuses a part beyond the 64th, of which at least one is the tank: the array holds
+ * all solids. */
 static void add_solid(build *b, const tree_node *map)
 {
     static const char *const kind[] = {"plate", "box", "cylinder", "sphere", "prism", "stl"};

@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A motion with the spectrum of JONSWAP (Hasselmann et al. 1973) as a sum of harmonics with random phases:
- *   S(w) ~ w^-5 exp(-1.25 (w_p/w)^4) gamma^r, r = exp(-(w - w_p)^2/(2 s^2 w_p^2)), s = 0.07 for w <= w_p, 0.09 above,
- * from 0.5 to 3 w_p, scaled so that the variance over this band is (significant/2)^2. The band is cut into parts of equal width; each has one
- * harmonic, at a random frequency within it, with the variance of its part. The same seed gives the same harmonics on all machines. */
+/* A motion with a JONSWAP spectrum (Hasselmann et al. 1973) as a sum of harmonics with random
+ * phases:
+ *   S(w) ~ w^-5 exp(-1.25 (w_p/w)^4) gamma^r, r = exp(-(w - w_p)^2/(2 s^2 w_p^2)),
+ *   s = 0.07 for w <= w_p, 0.09 above,
+ * from 0.5 to 3 w_p, scaled so that the variance over this band is (significant/2)^2. The band is
+ * divided into intervals of equal width; each has one harmonic, at a random frequency in it, with
+ * the variance of the interval. The same seed gives the same harmonics on all machines. */
 #include "ship_motion.h"
 #include <math.h>
 
-enum { PARTS = 64 }; /* of the integral over a part of the band */
+enum { PARTS = 64 }; /* of the integral over an interval of the band */
 
 static const double LOWEST = 0.5, HIGHEST = 3;
 
@@ -19,7 +22,7 @@ static double draw(uint64_t *state)
     return (double)((z ^ z >> 31) >> 11) / 9007199254740992.0;
 }
 
-/* Without its scale; x = w/w_p. */
+/* Unscaled spectrum; x = w/w_p. */
 static double density(double x, double gamma)
 {
     const double s = x <= 1 ? 0.07 : 0.09, r = exp(-(x - 1) * (x - 1) / (2 * s * s));

@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solids that stand in the free surface of the liquid at rest: linear theory for the whole tank leaves them out, so that the user must hear of them. */
+/* Finds solids that pierce the free surface of the liquid at rest, and warns: linear theory for the
+ * whole tank neglects them. */
 #include "build.h"
 #include <math.h>
 #include <string.h>
 
-/* What has been found at the height of the surface. All in the frame of the tank as built, before its motion. */
+/* What is found at the height of the surface, in the frame of the tank as built, before its
+ * motion. */
 typedef struct finding {
     build *b;
     int32_t part[BUILD_SOLIDS];
-    double top, near;      /* the highest particle of phase 0; what counts as its height [m] */
-    double lo[3], hi[3];   /* of the tank's walls there */
-    double (*box)[2][3];   /* [solids] lowest and highest place of a solid there; lo > hi: none */
-    int64_t liquid, walls; /* particles of phase 0; walls of the tank there */
+    double top, near;      /* the highest particle of phase 0; tolerance of its height [m] */
+    double lo[3], hi[3];   /* of the tank's walls at that height */
+    double (*box)[2][3];   /* [solids] bounds of a solid at that height; lo > hi: none */
+    int64_t liquid, walls; /* particles of phase 0; walls of the tank at that height */
 } finding;
 
 static void widen(double *lo, double *hi, const double *x, int32_t dim)
@@ -25,7 +27,7 @@ static void widen(double *lo, double *hi, const double *x, int32_t dim)
 static void take(finding *f, const double *x, int32_t kind, int32_t part)
 {
     const build *b = f->b;
-    /* dummies of a thin plate stand in the liquid on its other side */
+    /* dummies of a thin plate are in the liquid on its other side */
     if (kind != MPS_WALL || fabs(x[1] - f->top) > f->near) return;
     for (int32_t i = 0; i < b->solids; i++)
         if (part >= 0 && part == f->part[i]) {
@@ -59,7 +61,8 @@ static bool find(finding *f)
     return good;
 }
 
-/* The solids along the axis of the waves, and the longest stretch between those that reach across the tank. */
+/* Keep the solids along the axis of the waves, and the longest part between those that span the
+ * tank. */
 static void keep(const finding *f, build_modes *m)
 {
     const int32_t a = m->axis, other = 2 - a;

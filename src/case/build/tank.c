@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tanks: boxes, chamfered boxes, polygons, cylinders, balls, files. */
+/* Tanks: boxes, chamfered boxes, polygons, cylinders, spheres, files. */
 #include "build.h"
 #include <math.h>
 #include <stdio.h>
@@ -40,7 +40,7 @@ void mps__build_polygon(build *b, const tree_node *node, form *s)
     } else if (mps__form_polygon_crosses(s, side, at)) {
         const double *p = s->point[side[0]], *q = s->point[(side[0] + 1) % s->points],
                      *r = s->point[side[1]], *t = s->point[(side[1] + 1) % s->points];
-        const tree_node *line = node->first; /* of the point where the first side begins */
+        const tree_node *line = node->first; /* line of the point where the first side begins */
         for (int32_t i = 0; i < given && (point[i][0] != p[0] || point[i][1] != p[1]); i++)
             line = line->next;
         mps__case_say(b->c, line, false,
@@ -78,7 +78,8 @@ static void read_size(build *b, const tree_node *map)
     for (int d = 0; d < 3; d++) s->hi[d] = s->lo[d] + size[d];
 }
 
-/* Height of the rows: in a tank of any shape cells fill its box along the horizontal axes and keep the volume of a particle. */
+/* Height of the layers: in a tank of arbitrary shape cells divide its box along the horizontal axes
+ * and keep the volume of a particle. */
 static double row_height(const build *b, const tree_node *map)
 {
     double height = b->dp;
@@ -88,7 +89,8 @@ static double row_height(const build *b, const tree_node *map)
     return height;
 }
 
-/* Two fluids meet at this height: the lattice has it half way between two rows, and the tank reaches as far up as down from it. */
+/* Two fluids meet at this height: it is midway between two layers of the lattice, and the tank
+ * extends as far up as down from it. */
 static void lay_about(build *b, const tree_node *map)
 {
     form *s = &b->tank.form;
@@ -102,7 +104,7 @@ static void lay_about(build *b, const tree_node *map)
     s->hi[1] = s->lo[1] + b->tank.size[1];
 }
 
-/* Cut the corners of the box: run along x, rise along y. */
+/* Chamfer the corners of the box: run along x, rise along y. */
 static void read_chamfer(build *b, const tree_node *map)
 {
     form *s = &b->tank.form;
@@ -121,7 +123,7 @@ static void read_chamfer(build *b, const tree_node *map)
     const double corner[8][2] = {{x0 + cut[0][0], y0}, {x1 - cut[0][0], y0}, {x1, y0 + cut[0][1]},
                                  {x1, y1 - cut[1][1]}, {x1 - cut[1][0], y1}, {x0 + cut[1][0], y1},
                                  {x0, y1 - cut[1][1]}, {x0, y0 + cut[0][1]}};
-    for (int i = 0; i < 8; i++) { /* without points that coincide, where one cut is 0 */
+    for (int i = 0; i < 8; i++) { /* without coincident points where a chamfer is 0 */
         const double *last = s->points ? s->point[s->points - 1] : corner[7];
         if (hypot(corner[i][0] - last[0], corner[i][1] - last[1]) < 1e-9 * (x1 - x0)) continue;
         memcpy(s->point[s->points++], corner[i], sizeof corner[i]);
@@ -175,7 +177,7 @@ static void read_ball(build *b, const tree_node *map)
 
 bool mps__build_stl(build *b, const tree_node *map, mps_stl *stl)
 {
-    /* turns that bring the axis of the file to +y */
+    /* rotations of the axis of the file to +y */
     static const double turn[3][3] = {{0, 0, 1}, {0, 0, 0}, {-1, 0, 0}};
     const double quarter = 0.5 * acos(-1.0);
     double angle[3] = {0};

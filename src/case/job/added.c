@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adding columns of probes.csv and figures of summary.json, and what each one is and where. */
+/* Adds columns of probes.csv and figures of summary.json, with their descriptions and positions. */
 #include "run.h"
 #include <ctype.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Append to the text about a column. */
+/* Append to the description of a column. */
 static void about_add(job_column *c, const char *format, ...)
 {
     const size_t used = strlen(c->about);
@@ -36,7 +36,7 @@ static void about_average(job_column *c, double average)
 
 /* ---- names ---- */
 
-/* Names stand in headers of tables and in names of files. */
+/* Names are used in table headers and file names. */
 static bool is_name(const char *name)
 {
     const size_t length = name ? strlen(name) : 0;
@@ -98,7 +98,7 @@ static mps_status check_column(mps_job *job, const char *name, const char *unit,
 
 /* ---- probes ---- */
 
-/* Component of a probe in the words of its column; moments stand behind the forces. */
+/* Component of a probe for the description of its column; moments follow the forces. */
 static bool is_moment(const mps_job *job, const mps_probe *probe, int32_t component)
 {
     return probe->type == MPS_PROBE_FORCE && component >= job->dim;
@@ -190,7 +190,7 @@ mps_status mps_job_probe_add(mps_job *job, mps_sim *sim, const mps_probe *probe,
     if (status < 0) return status;
     const int32_t size = mps_probe_size(sim, id);
     mps_probe_info_init(&info, sizeof info);
-    mps_probe_info_get(sim, id, &info); /* it is there */
+    mps_probe_info_get(sim, id, &info); /* the id is valid */
     job_column *c = component >= 0 && component < size ? add_column(job, name, unit) : NULL;
     if (!c) {
         mps_probe_remove(sim, id);

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The colour scale of all pictures of a run, from the case as it is built: the same for a run that is stopped and continued as for a whole one,
- * whenever a picture is made, and on any number of ranks. */
+/* The colour scale of all pictures of a run, determined from the case as built: independent of
+ * restarts, of the time of a picture and of the number of ranks. */
 #include "run.h"
 #include "page_scale.h"
 #include "view.h"
 #include <math.h>
 
-/* Phases that count; reserve over the pressure at rest, for crests. */
+/* Phases considered; factor above the pressure at rest, for wave crests. */
 enum { PHASES = 16 };
 static const double RESERVE = 1.25;
-/* Stands for gravity where nothing else gives a pressure, as in mps_config.velocity_scale [m/s2]. */
+/* Used instead of gravity where nothing else determines a pressure, as in mps_config.velocity_scale
+ * [m/s2]. */
 static const double GRAVITY_ELSE = 9.81;
 
-/* Where the particles of each phase are and how fast. All are maxima, so that ranks can combine them: `least` has the sign changed. */
+/* Extents and speed of the particles of each phase. All are maxima, so that ranks can combine them:
+ * `least` is negated. */
 typedef struct extents {
     double most[3 * PHASES], least[3 * PHASES], speed[PHASES];
 } extents;
@@ -33,7 +35,7 @@ static void take_particles(extents *e, const view *v, const mps_lease *u, int di
     }
 }
 
-/* All ranks make this call. @return false: the particles of this rank cannot be read */
+/* Collective call. @return false: the particles of this rank cannot be read */
 static bool find_extents(mps_job *job, extents *e)
 {
     const mps_job_ranks *r = job->config.ranks;
@@ -74,8 +76,9 @@ static double tension_of(const mps_sim *sim, int32_t phase)
     return most;
 }
 
-/* Pressures that the fluid has at the start, [Pa]: rho |g| h of all phases above each other; rho u^2 of a phase that comes to rest; Laplace's
- * pressure of a drop as narrow as the phase. Without any of them: the first with GRAVITY_ELSE. 0: there is no fluid. */
+/* Pressures of the fluid at the start [Pa]: rho |g| h of the stacked phases; rho u^2 of a phase
+ * that is brought to rest; the Laplace pressure of a droplet as narrow as the phase. If all are 0:
+ * rho GRAVITY_ELSE h. 0: there is no fluid. */
 static double pressure_at_start(const mps_job *job, const extents *e)
 {
     double rest = 0, otherwise = 0, blow = 0, curved = 0;
@@ -109,7 +112,7 @@ void mps__colours_begin(mps_job *job)
     const bool read = find_extents(job, &e);
     if (!mps__job_note(job, read ? MPS_OK : MPS_E_BUSY, "colours of the pictures")) return;
     const double pressure = pressure_at_start(job, &e);
-    if (!(pressure > 0) || !isfinite(pressure)) return; /* pictures find their own */
+    if (!(pressure > 0) || !isfinite(pressure)) return; /* each picture determines its own scale */
     mps__scale_end(&scale, pressure, false);
     job->picture.pressure_lo = scale.lo;
     job->picture.pressure_hi = scale.hi;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The common columns of probes.csv, and the boxes of tank and liquid. */
+/* The common columns of probes.csv, and the bounding boxes of tank and liquid. */
 #include "run.h"
 #include "view.h"
 #include <math.h>
 #include <string.h>
 
-/* Those of every job, behind those that were added, in the order of COLUMN_KE and on. The energy's unit is J, J/m in 2-D. */
+/* The columns of every job, after the added ones, in the order from COLUMN_KE on. The unit of
+ * energy is J, in 2-D J/m. */
 static const job_column COMMON[COLUMN_COMMON] = {
     {.name = "ke", .unit = "J", .about = "Kinetic energy: of all fluid"},
     {.name = "x_tank", .unit = "m", .about = "Displacement of the tank along x"},
@@ -99,7 +100,7 @@ mps_status mps_job_column_read(mps_job *job, mps_sim *sim, int32_t index, double
     return MPS_OK;
 }
 
-/* Rounding of 0 becomes 0. */
+/* Set rounding errors around 0 to 0. */
 static void tidy(job_box *b, double dp)
 {
     for (int d = 0; d < 3; d++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames and pictures of a run, and its last state. */
+/* Frames and pictures of a run, and its final state. */
 #include "picture_canvas.h"
 #include "run.h"
 #include <math.h>
@@ -8,13 +8,13 @@
 
 enum { QUARTERS = 4 };
 
-/* Whether each rank writes a piece of a frame: a call that all ranks make. */
+/* Whether each rank writes its own piece of a frame: a collective call. */
 static bool is_apart(const mps_job *job)
 {
     return job->config.pieces && mps__job_ranks(job) > 1;
 }
 
-/* The present state, unless the last frame has it already. */
+/* Write a frame of the present state, unless the last frame contains it. */
 static void write_frame(mps_job *job)
 {
     double t = 0;
@@ -24,7 +24,7 @@ static void write_frame(mps_job *job)
     job->frame_t = t;
 }
 
-/* Number of the first frame behind t. */
+/* Number of the first frame after t. */
 static int64_t next_frame(const mps_job *job, double t)
 {
     return (int64_t)(t / job->config.t_end * job->config.frames + 1e-9) + 1;
@@ -32,14 +32,15 @@ static int64_t next_frame(const mps_job *job, double t)
 
 /* ---- frames about peaks ---- */
 
-/* Rows of a rise where nothing falls. */
+/* Rows per rise time if there is no fall. */
 static const double RISE_ROWS = 100;
-/* The first pressures are looked at only behind this share of a fall. */
+/* Pressures are evaluated only after this fraction of the fall time. */
 static const double START_SHARE = 0.2;
 
-/* Of the tank, the spacing and the rows alone: a run that is extended has the peaks of one long
- * run. A rise takes at most as long as a fall through the tank. Frames are as far apart as it takes
- * liquid of the speed of that fall to cross a quarter of a spacing: a step or two. */
+/* The parameters depend on the tank, the spacing and the rows alone, so that an extended run has
+ * the peaks of one long run. A rise takes at most as long as a free fall through the tank. The
+ * interval of frames is the time in which liquid at the speed of that fall crosses a quarter of a
+ * spacing: a step or two. */
 void mps__peaks_begin(mps_job *job)
 {
     const mps_job_config *c = &job->config;
@@ -66,8 +67,8 @@ static int is_wanted(void *user, double t)
     return mps__peaks_wants(user, t);
 }
 
-/* Remove those that are about none of the highest peaks any more. Steps that are fitted to the end
- * remove none: a run that is extended takes other steps, and may have other peaks, instead. */
+/* Remove frames that are no longer near one of the highest peaks. Steps that are fitted to the end
+ * remove none: an extended run takes other steps instead, and may have other peaks. */
 static void remove_peaks(mps_job *job)
 {
     if (!job->peaks.changed || !job->peak_frames || job->fitted) return;
@@ -84,7 +85,7 @@ void mps__frames_begin(mps_job *job)
     const int32_t flags = (c->resume ? MPS_FRAMES_CONTINUE : 0) | (pieces ? MPS_FRAMES_PIECES : 0) |
                           (c->tank_frame ? MPS_FRAMES_TANK : 0);
     job->frame_t = -1;
-    /* what was due for the rows before a checkpoint was done before it */
+    /* rows before a checkpoint have had their frames written and removed */
     job->peaks.due = job->peaks.changed = false;
     if (c->frames == 0 || !(pieces || mps__job_gather(job))) return;
     mps__job_note(job, mps_frames_open(job->sim, c->folder, "frames", flags, &job->frames),
@@ -105,7 +106,7 @@ static bool is_frame_due(const mps_job *job, double t)
     return job->frames && t >= (double)job->frame * interval - 1e-9 * interval;
 }
 
-/* At the times asked for, or at quarters; the end has a picture of its own. */
+/* At the requested times, or at quarters of the run; the end has a picture of its own. */
 static bool is_picture_due(const mps_job *job, double t)
 {
     const mps_job_config *c = &job->config;
@@ -148,7 +149,8 @@ static void draw_next(mps_job *job, double t)
     draw(job, name);
 }
 
-/* One state may be in both series: that about peaks does not depend on the times of the other. */
+/* One state may be in both series: the frames about peaks do not depend on the times of the other
+ * series. */
 static void write_due(mps_job *job, int due)
 {
     if (due & DUE_FRAME) write_frame(job);
@@ -171,10 +173,10 @@ void mps__drawing_do(mps_job *job, double t, int due)
 
 void mps__drawing_end(mps_job *job, mps_status status)
 {
-    /* of a run that goes on from here the frames are at the times of one that was not stopped */
+    /* a run that continues from here has the frame times of an uninterrupted run */
     const bool frame = status != MPS_W_STOPPED;
     if (frame && is_apart(job) && status >= 0) write_frame(job);
-    if (mps__job_gather(job)) { /* not where a rank has failed */
+    if (mps__job_gather(job)) { /* false if a rank has failed */
         if (frame && !is_apart(job)) write_frame(job);
         if (mps__job_first(job)) {
             draw(job, "picture_end.png");

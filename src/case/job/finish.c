@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What comes after the last step: checkpoint, last state, tables, summary, page, and what to say when it failed. */
+/* The end of a run: checkpoint, final state, tables, summary, page, and the message of a
+ * failure. */
 #include "run.h"
 #include <math.h>
 #include <stdio.h>
@@ -28,13 +29,14 @@ static int32_t exit_code(const mps_job *job, mps_status status)
     if (status == MPS_W_STOPPED) return job->stop ? MPS_EXIT_INTERRUPTED : MPS_EXIT_FAILED;
     if (status == MPS_E_DIVERGED || status == MPS_E_LOST || status == MPS_E_SOLVER)
         return MPS_EXIT_DIVERGED;
-    /* models that do not fit together or to the case, or a flow beyond a model */
+    /* models that do not fit together or the case, or a flow outside the range of a model */
     if (status == MPS_E_PLUGIN || status == MPS_E_STATE)
         return job->totals.steps == 0 ? MPS_EXIT_USAGE : MPS_EXIT_DIVERGED;
     return status < 0 ? MPS_EXIT_FAILED : MPS_EXIT_OK;
 }
 
-/* From here an interrupted run goes on. Once steps are fitted to the end, the checkpoint before them is the one to go on from. */
+/* Write the checkpoint from which an interrupted run continues. Once steps are fitted to the end,
+ * the checkpoint before them is kept for that. */
 static void last_checkpoint(mps_job *job, mps_status status)
 {
     if (status == MPS_W_STOPPED && !job->output_failed) mps__resume_save(job);
@@ -84,7 +86,7 @@ static void say_end(mps_job *job)
                   job->config.folder, job->config.report ? "; report.html there shows them" : "");
 }
 
-/* What the steps of rank 0 have cost. */
+/* Log the time of the steps of rank 0. */
 static void show_profile(mps_job *job)
 {
     double seconds = 0;
@@ -95,7 +97,7 @@ static void show_profile(mps_job *job)
     free(text);
 }
 
-/* What rank 0 writes and says at the end. @return exit code */
+/* Output of rank 0 at the end. @return exit code */
 static int32_t report(mps_job *job, mps_status status)
 {
     int32_t code = exit_code(job, status);
@@ -107,7 +109,7 @@ static int32_t report(mps_job *job, mps_status status)
     say_failure(job, code, status);
     if (!job->config.quiet && code != MPS_EXIT_USAGE) say_end(job);
     if (job->config.profile && code != MPS_EXIT_USAGE) show_profile(job);
-    /* refused before its first step: what it wrote is no run that another one must keep */
+    /* refused before its first step: its files are no run that has to be kept */
     if (code == MPS_EXIT_USAGE) mps__resume_forget(job, NULL);
     return code;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Folders are locked by fcntl() on a file in them: the system removes the lock however the program
- * ends, and tells which process holds it. The file names the machine and the process. */
+/* A folder is locked by fcntl() on a file in it: the system removes the lock however the program
+ * ends, and reports the process that holds it. The file contains the machine and the process. */
 #include "folder.h"
 #include <dirent.h>
 #include <errno.h>
@@ -15,13 +15,12 @@
 enum {
     FOLDER_ROOM = 65536, /* bytes that must fit on the disk */
     FOLDER_HOST = 128,
-    FOLDER_STALE =
-        900 /* [s] after which the lock of another machine that is not renewed holds no more */
+    FOLDER_STALE = 900 /* [s] age at which an unrenewed lock of another machine expires */
 };
 
 static const char LOCK[] = "run.lock";
 
-/* What every job writes, beside frames/. The first ones tell that there is a run. */
+/* Outputs of every job besides frames/. The first ones indicate that there is a run. */
 static const char *const FILES[] = {
     "checkpoint.mps",     "probes.csv",   "steps.csv",     "frames.pvd",      "summary.json",
     "checkpoint.mps.tmp", "momentum.csv", "trace.csv",     "report.html",     "report.html.tmp",
@@ -45,7 +44,7 @@ const char *mps__folder_advice(int error)
     }
 }
 
-/* Why a call failed, which is `number`, and what to do. */
+/* Format why a call failed with errno `number`, and the advice. */
 static mps_status folder_refuse(const folder *f, int number, char *error, size_t size)
 {
     snprintf(error, size, "--out %s: %s; %s", f->path, strerror(number),
@@ -60,8 +59,9 @@ static bool folder_make(const char *path)
     snprintf(part, sizeof part, "%s", path);
     for (char *slash = part + 1; (slash = strchr(slash, '/')) != NULL; slash++) {
         *slash = '\0';
+        /* parent folders may exist */
         if (mkdir(part, 0777) != 0 && errno != EEXIST && errno != EROFS && errno != EACCES)
-            return false; /* of those above, it may be there */
+            return false;
         *slash = '/';
     }
     struct stat s;
@@ -73,7 +73,7 @@ static bool folder_make(const char *path)
 
 /* ---- the lock ---- */
 
-/* The file is removed while it is locked, so that it cannot be one that another run has locked. */
+/* The file is removed while it is locked, so that no other run can have locked it. */
 void mps__folder_close(folder *f)
 {
     if (!f->lock[0]) return;
@@ -82,7 +82,7 @@ void mps__folder_close(folder *f)
     f->lock[0] = '\0';
 }
 
-/* A file that is locked and still in the folder; a run that ended meanwhile has taken its own away. */
+/* Whether a locked file is still in the folder; a run that has just ended removes its own. */
 static bool folder_is_current(int fd, const char *path)
 {
     struct stat mine, there;
@@ -103,7 +103,7 @@ static mps_status folder_refuse_locked(const folder *f, int fd, char *error, siz
     return MPS_E_BUSY;
 }
 
-/* Is there room for the first files? A full disk often takes a name and no more. */
+/* Whether the disk has space for the first files. A full disk often accepts a name and no data. */
 static bool folder_has_room(int fd)
 {
     static const char zeros[FOLDER_ROOM];
@@ -124,8 +124,9 @@ static void folder_host(char host[FOLDER_HOST])
     host[strcspn(host, " \n")] = '\0';
 }
 
-/* Disks that several machines share may not pass locks on. So the file names its machine and process, and a run renews it: that of another
- * machine which is not older than FOLDER_STALE holds. That of this machine has ended, or fcntl() would have said so. */
+/* File systems shared by machines may not propagate locks. So the file names its machine and
+ * process, and a run renews it: a file of another machine is valid until it is FOLDER_STALE old. A
+ * process of this machine has ended, or fcntl() would have reported its lock. */
 static bool folder_is_held_elsewhere(const folder *f, int fd, char *error, size_t size)
 {
     char text[FOLDER_HOST + 40] = "", host[FOLDER_HOST], holder[FOLDER_HOST];
@@ -148,10 +149,10 @@ static bool folder_is_held_elsewhere(const folder *f, int fd, char *error, size_
 
 void mps__folder_renew(const folder *f)
 {
-    if (f->lock[0]) futimens(f->fd, NULL); /* a failure costs no more than a wrong age */
+    if (f->lock[0]) futimens(f->fd, NULL); /* a failure only makes the age wrong */
 }
 
-/* Write who has the lock. @return false: errno */
+/* Write the owner of the lock. @return false: errno */
 static bool folder_sign(int fd)
 {
     char text[FOLDER_HOST + 40], host[FOLDER_HOST];
@@ -232,7 +233,7 @@ mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error,
 
 /* ---- removal ---- */
 
-/* A file of a folder that is open, "place/name" in messages; of a link the link itself. */
+/* Remove a file of an open folder, "place/name" in messages; of a link, the link itself. */
 static bool folder_remove(int fd, const char *place, const char *name, char *error, size_t size)
 {
     if (unlinkat(fd, name, 0) == 0 || errno == ENOENT) return true;
@@ -241,7 +242,8 @@ static bool folder_remove(int fd, const char *place, const char *name, char *err
     return false;
 }
 
-/* `name` is `before`, at least so many digits, perhaps '_' and four or more of the number of a rank, `after`. */
+/* Whether `name` is `before`, at least so many digits, optionally '_' and four or more digits of a
+ * rank, `after`. */
 static bool folder_is_numbered(const char *name, const char *before, size_t digits,
                                const char *after)
 {
@@ -279,7 +281,7 @@ bool mps__folder_has_no_links(const folder *f, char *error, size_t size)
     return !link;
 }
 
-/* What is removed by number: beginning and end of names. */
+/* Numbered files that are removed: prefix and suffix. */
 typedef struct numbered {
     const char *before, *after;
 } numbered;
@@ -298,7 +300,8 @@ static bool folder_remove_numbered(int fd, const char *place, const numbered *n,
     return done;
 }
 
-/* Frames, in a folder `name` of the run itself: through a link the files of another folder would be removed. */
+/* Remove frames, if the folder `name` is in the run itself: through a link the files of another
+ * folder would be removed. */
 static bool folder_clear_frames(int fd, const char *place, const char *name, char *error,
                                 size_t size)
 {
@@ -319,7 +322,7 @@ static bool folder_clear_frames(int fd, const char *place, const char *name, cha
     for (size_t i = 0; done && i < sizeof ends / sizeof *ends; i++)
         done = folder_remove_numbered(frames, path, &(numbered){before, ends[i]}, 6, error, size);
     close(frames);
-    if (done) unlinkat(fd, name, AT_REMOVEDIR); /* if nothing else is in it */
+    if (done) unlinkat(fd, name, AT_REMOVEDIR); /* only if it is empty */
     return done;
 }
 

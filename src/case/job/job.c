@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in stepping.c. */
+/* A job as its program sees it: creation, texts, references and inputs. The columns are in
+ * columns.c and added.c, stepping in stepping.c. */
 #include "run.h"
 #include <math.h>
 #include <stdarg.h>
@@ -8,13 +9,13 @@
 #include <string.h>
 
 enum {
-    MESSAGES = 20,      /* of the library, before it is cut short */
-    PAGE_LEAST = 500000 /* as mps_page_write() wants it */
+    MESSAGES = 20,      /* log messages of the library before truncation */
+    PAGE_LEAST = 500000 /* minimum of mps_page_write() */
 };
 
 /* ---- texts ---- */
 
-/* Without a function of the program: messages to stderr, tables to stdout. */
+/* Default without a callback of the program: messages to stderr, tables to stdout. */
 static void say(mps_job *job, int32_t kind, const char *text)
 {
     if (job->config.say) {
@@ -104,7 +105,7 @@ void mps_job_stop(mps_job *job)
 
 void *mps__job_grown(void *array, int count, size_t size)
 {
-    const bool full = (count & (count - 1)) == 0; /* room is a power of two */
+    const bool full = (count & (count - 1)) == 0; /* the capacity is a power of two */
     return full ? realloc(array, (count > 0 ? 2 * (size_t)count : 1) * size) : array;
 }
 
@@ -134,7 +135,7 @@ mps_status mps_job_config_init(mps_job_config *config, size_t size)
     return MPS_OK;
 }
 
-/* @return NULL, or what is wrong */
+/* @return NULL, or the error */
 static const char *check(const mps_job_config *c)
 {
     if (!c->name || !c->name[0]) return "name is required";
@@ -161,7 +162,7 @@ static const char *check(const mps_job_config *c)
     return NULL;
 }
 
-/* Own copies of texts and times. @return false: memory is out, mps_job_destroy() is allowed then */
+/* Copy texts and times. @return false: memory is exhausted, mps_job_destroy() is still valid */
 static bool copy_config(mps_job *job, const mps_job_config *from)
 {
     mps_job_config *c = &job->config;
@@ -179,12 +180,12 @@ static bool copy_config(mps_job *job, const mps_job_config *from)
     double *times = bytes ? malloc(bytes) : NULL;
     if (times) memcpy(times, from->picture_t, bytes);
     c->picture_t = times;
-    /* without times of their own there are pictures at the quarters */
+    /* default: pictures at the quarters of the run */
     job->picture_at = calloc((size_t)from->picture_count + 4, sizeof *job->picture_at);
     return done && (!bytes || times) && job->picture_at;
 }
 
-/* Folder and lock, of which all ranks hear. */
+/* Open folder and lock, and broadcast the result to all ranks. */
 static mps_status open_folder(mps_job *job)
 {
     const mps_job_config *c = &job->config;
@@ -193,7 +194,7 @@ static mps_status open_folder(mps_job *job)
         status = mps__folder_open(&job->place, c->folder, c->resume || c->overwrite, job->error,
                                   sizeof job->error);
     else
-        snprintf(job->place.path, sizeof job->place.path, "%s", c->folder); /* it reads there */
+        snprintf(job->place.path, sizeof job->place.path, "%s", c->folder); /* path only */
     if (status != MPS_OK) job->code = MPS_EXIT_USAGE;
     return mps__job_agree(job) ? MPS_OK : status != MPS_OK ? status : MPS_E_RANKS;
 }
@@ -215,7 +216,7 @@ mps_status mps_job_create(const mps_job_config *config, mps_job **job)
     status = open_folder(made);
     if (config->error && config->error_size > 0)
         snprintf(config->error, config->error_size, "%s", made->error);
-    made->config.error = NULL; /* it is the program's */
+    made->config.error = NULL; /* the program owns it */
     if (status == MPS_OK)
         *job = made;
     else
@@ -269,7 +270,7 @@ void mps_job_destroy(mps_job *job)
     free(job);
 }
 
-/* ---- what to compare with, and inputs ---- */
+/* ---- references and inputs ---- */
 
 mps_status mps_reference_init(mps_reference *reference, size_t size)
 {
@@ -278,7 +279,7 @@ mps_status mps_reference_init(mps_reference *reference, size_t size)
     return MPS_OK;
 }
 
-/* Times do not descend, and all are numbers. */
+/* Whether times do not descend, and all values are finite. */
 static bool are_points(int64_t count, const double *t, const double *value)
 {
     if (count < 1 || !t || !value) return false;
@@ -358,7 +359,7 @@ mps_status mps_job_edges_add(mps_job *job, int32_t count, const double *ends)
     const size_t before = 6 * (size_t)job->edges, more = 6 * (size_t)count;
     double *grown = realloc(job->edge, (before + more) * sizeof *grown);
     if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
-    /* in single precision, so that summary.json has them as they are */
+    /* rounded to single precision, so that summary.json has the values as stored */
     for (size_t k = 0; k < more; k++) grown[before + k] = (double)(float)ends[k];
     job->edge = grown;
     job->edges += count;

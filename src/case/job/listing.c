@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists of the library, printed from the library itself. */
+/* Prints lists of the library, as the library reports them. */
 #include <math.h>
 #include <mps/job.h>
 #include <mps/model.h>
@@ -73,7 +73,7 @@ static void print_channels(FILE *out, const mps_sim *sim)
                  "|\n|---|---|---|---|---|\n");
 }
 
-/* Channels that the models of a preset bring, unless an earlier one did. */
+/* Print channels that the models of a preset add, unless an earlier model did. */
 static void print_brought(FILE *out, const mps_sim *sim)
 {
     mps_channel_info c;
@@ -99,7 +99,7 @@ static void print_order(FILE *out, mps_sim *sim, const char *preset)
     fprintf(out, "\n");
 }
 
-/* Settings of one model that a preset changes. */
+/* Print the settings of one model that a preset changes. */
 static void print_changes(FILE *out, const mps_sim *sim, const char *preset, const char *model)
 {
     mps_setting_info k;
@@ -156,7 +156,7 @@ static void print_all(FILE *out, mps_sim *sim)
     print_preset_settings(out, sim);
     print_models(out, sim);
     print_channels(out, sim);
-    mps_preset_use(sim, "mmps"); /* brings all channels */
+    mps_preset_use(sim, "mmps"); /* adds all channels */
     print_brought(out, sim);
     fprintf(out, "\n");
     print_order(out, sim, "imps");

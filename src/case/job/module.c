@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Libraries that are loaded when a run asks for them, so that programs run where they are not. */
+/* Loads libraries on demand, so that programs run where these are not installed. */
 #include "run.h"
 #include <mps/device.h>
 #include <dlfcn.h>
@@ -23,7 +23,8 @@ void *mps__job_module(const char *name)
 
 /* ---- devices ---- */
 
-/* The number of "cuda:2"; of "cuda" that of MPS_CUDA_OF_RANK. @return UNKNOWN: it is neither */
+/* The device number of "cuda:2"; of "cuda" that of MPS_CUDA_OF_RANK.
+ * @return UNKNOWN: the text is neither */
 enum { OF_RANK = -1, UNKNOWN = -2 };
 static int number_of(const char *device)
 {
@@ -47,14 +48,14 @@ bool mps__job_device(mps_job *job)
     if (!device) return true;
     void *module = mps__job_module("libmps_cuda.so.1"),
          *symbol = module ? dlsym(module, "mps_cuda_use") : NULL;
-    if (!symbol && mps__job_ranks(job) > 1) /* others may have it, and wait for this rank */
+    if (!symbol && mps__job_ranks(job) > 1) /* other ranks may have it and wait for this one */
         mps_sim_device_set(job->sim, NULL);
     if (!symbol)
         return mps__job_fail(job, MPS_EXIT_USAGE,
                              "device '%s': %s; it is built where clang and LLVM are: cmake "
                              "-DMPS_DEVICE=ON; of the packages of libmps it needs libmps-cuda1",
                              device, dlerror());
-    memcpy(&use, &symbol, sizeof use); /* ISO C has no cast from void * to a function */
+    memcpy(&use, &symbol, sizeof use); /* ISO C has no cast from void * to a function pointer */
     if (use(job->sim, number_of(device)) == MPS_OK) return true;
     return mps__job_fail(job, MPS_EXIT_USAGE, "%s", mps_sim_error(job->sim));
 }

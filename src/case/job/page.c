@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* report.html, film and state of ParaView of a run, from what the run has written. */
+/* Writes report.html, film and ParaView state of a run from its output files. */
 #include "run.h"
 #include <mps/page.h>
 #include <mps/picture.h>
@@ -18,7 +18,8 @@ static bool save_page(mps_job *job)
     return false;
 }
 
-/* What helps to look at the frames. A run without it is complete, so that a failure is a message only. */
+/* Write the files for viewing the frames. A run is complete without them, so a failure is only a
+ * message. */
 static void save_views(mps_job *job)
 {
     char error[FOLDER_PATH + 400] = "";

@@ -2,11 +2,11 @@
 #include "peaks.h"
 #include <math.h>
 
-/* Rises that are looked at: of the least one among the peaks that are kept, and of the highest
- * so far where there are fewer. */
+/* Lowest rise considered: fraction of the lowest kept peak, and of the highest so far while fewer
+ * are kept. */
 static const double SHARE_KEPT = 0.3, SHARE_HIGHEST = 0.1;
-/* Time between frames, of the time since the rise began; times about a peak, in that unit: three
- * frames before it and two after. */
+/* Time between frames, as a fraction of the time since the rise began; times about a peak in that
+ * unit: three frames before it and two after. */
 static const double SPACING = 0.2, BEFORE = 3.2, AFTER = 2.2;
 
 void mps__peaks_init(peaks *p, int most, double start, double interval, double apart)
@@ -26,7 +26,7 @@ void mps__peaks_add(peaks *p, int column)
     if (p->most > each) p->most = each;
 }
 
-/* How far the pressure has risen within the last interval or two. */
+/* Rise of the pressure within the last interval or two. */
 static double rise_of(peak_signal *s, double t, double p, double interval)
 {
     if (t >= s->turn) {
@@ -38,8 +38,8 @@ static double rise_of(peak_signal *s, double t, double p, double interval)
     return p - fmin(s->low[0], s->low[1]);
 }
 
-/* Put the peak that has ended among the highest. The next rise begins at the present value, so
- * that the fall is none. */
+/* Insert the peak that has ended into the sorted list. The next rise begins at the present value,
+ * so that the fall is not counted as one. */
 static void keep(peaks *p, peak_signal *s, double value)
 {
     s->low[0] = s->low[1] = value;
@@ -59,8 +59,8 @@ static double least_rise(const peaks *p, const peak_signal *s)
                                : SHARE_HIGHEST * s->highest;
 }
 
-/* The frames about a peak are as far apart as the rise allows, so that a slow one takes no more
- * of them than a steep one. */
+/* The interval of frames about a peak scales with its rise time, so that a slow peak takes no more
+ * frames than a steep one. */
 static void follow(peaks *p, peak_signal *s, double t, double value, double rise)
 {
     const double apart = fmax(SPACING * (t - s->begin), p->apart);
@@ -71,7 +71,7 @@ static void follow(peaks *p, peak_signal *s, double t, double value, double rise
     if (t <= s->now.to && t - s->last >= apart) {
         s->last = t;
         p->due = true;
-        p->changed = true; /* the first frames of a rise, when there are later ones */
+        p->changed = true; /* the first frames of a rise are removed once later ones exist */
     }
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Where the time of steps goes: the table of --profile. */
+/* The table of --profile: time of each pass of a step. */
 #include <mps/job.h>
 #include <mps/mps.h>
 #include <stdbool.h>
@@ -15,7 +15,7 @@ static double profile_sum(mps_sim *sim)
     return sum;
 }
 
-/* A pass without arrays of its own has no bytes, and no rate. */
+/* A pass without arrays of its own has no bytes and no rate. */
 static void profile_line(FILE *out, const mps_pass_info *p, double sum)
 {
     fprintf(out, "%-9s %-24s %9lld %11.4f %6.1f %% %11.1f", p->hook_name, p->name,

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Progress of a run as text. */
+/* Formats the progress of a run. */
 #include "progress.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,7 +46,7 @@ bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size
     double now = mps__progress_clock(), interval = p->terminal ? 0.1 : 10;
     if (now - p->shown < interval) return false;
     double rate = (double)(info->step - p->steps_shown) * (double)p->particles / (now - p->shown);
-    /* a tenth of a second is only a few steps */
+    /* a tenth of a second covers only a few steps */
     p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate;
     double done = info->t - p->t_begin;
     double eta = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lines of progress: one that is kept up to date on a terminal, else a line of key=value every 10 s for batch logs:
- * t [s], step, dt [s], wall [s] since the start, eta [s] until the end. */
+/* Progress lines: a line that is updated on a terminal, else a line of key=value every 10 s for
+ * batch logs: t [s], step, dt [s], wall [s] since the start, eta [s] until the end. */
 #ifndef MPS_CASE_PROGRESS_H
 #define MPS_CASE_PROGRESS_H
 
@@ -10,23 +10,24 @@
 
 typedef struct progress {
     bool terminal, colour;
-    bool line;           /* a line without its newline stands on the terminal */
+    bool line;           /* the terminal shows a line without its newline */
     double start, shown; /* wall clock [s] */
     double t_begin, t_end;
     int64_t particles;
     int64_t steps_shown; /* steps at the last output, for the rate */
-    double rate;         /* particles a second, smoothed */
+    double rate;         /* particles per second, smoothed */
 } progress;
 
 /* Wall clock, monotonic [s]. */
 double mps__progress_clock(void);
-/* @param terminal  stderr may be a terminal, and lines go there */
+/* @param terminal  stderr may be a terminal that shows progress */
 void mps__progress_begin(progress *p, double t_end, int64_t particles, bool terminal);
-/* The run goes on from here: what was computed before took no time. */
+/* The run continues from here: earlier steps are excluded from the rate. */
 void mps__progress_from(progress *p, double t, int64_t steps);
-/* @param text  [size] out: the line to show @return true if it is time to (about ten times a second, or every 10 s) */
+/* @param text  [size] out: the line to show
+ * @return true if it is due (about ten times a second, or every 10 s) */
 bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size_t size);
-/* What frees the line on the terminal for a message, "" if there is none. */
+/* Control text that clears the progress line before a message, "" if there is none. */
 const char *mps__progress_clear(progress *p);
 
 #endif

@@ -1,14 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks: they decide together. MPI is in a module that programs load: they run where there is no MPI, too. */
+/* Decisions of all ranks. MPI is in a module that programs load on demand: they run without MPI
+ * too. */
 #include "run.h"
 #include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A rank that leaves waits for the others to hear of it [s]. */
+/* How long a rank that ends waits for the others to receive its exit code [s]. */
 static const double PATIENCE = 20;
 
-/* What ranks combine; LEAVES: 0, or 1 + exit code; TELLS: of the ranks that fail, the lowest has the largest number. */
+/* What ranks reduce; LEAVES: 0, or 1 + exit code; TELLS: of the ranks that fail, the lowest has the
+ * largest number. */
 enum { VALUE, LEAVES, TELLS, VALUES };
 
 bool mps__job_first(const mps_job *job)
@@ -81,7 +83,7 @@ mps_status mps_job_ranks_load(mps_job_ranks *ranks, char *error, size_t error_si
         snprintf(error, error_size, "%s", dlerror());
         return MPS_E_IO;
     }
-    memcpy(&begin, &symbol, sizeof begin); /* ISO C has no cast from void * to a function */
+    memcpy(&begin, &symbol, sizeof begin); /* ISO C has no cast from void * to a function pointer */
     const mps_status status = begin(ranks);
     if (status != MPS_OK)
         snprintf(error, error_size, "mps_drivers_mpi.so is of another version of libmps_case");

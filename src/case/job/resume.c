@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A checkpoint holds the simulation; what the run itself has summed up and drawn comes back from its files of rows. They are on the disk
- * before each checkpoint, so that also after a kill they reach at least up to it. */
+/* A checkpoint holds the simulation; totals and drawings of the run are restored from its files of
+ * rows. These are flushed to the disk before each checkpoint, so that they reach it even after a
+ * kill. */
 #include "run.h"
 #include <errno.h>
 #include <math.h>
@@ -12,11 +13,12 @@
 
 enum { RESUME_PATH = 560 };
 
-/* Share of the time of a run that checkpoints by the clock may take. */
+/* Fraction of the run time that checkpoints by wall clock may take. */
 static const double CLOCK_SHARE = 0.01;
 
-/* As mps_run() fits them, and how much longer than the last one a step may be by default; where mps_time_control.growth is larger, the
- * checkpoint before the fitted steps may be missing, and more steps are taken again. */
+/* As mps_run() fits them, and the default largest ratio of a step to the last one; for a larger
+ * mps_time_control.growth the checkpoint before the fitted steps may be missing, and more steps are
+ * repeated. */
 static const double FITTED_STEPS = 20, FITTED_GROWTH = 1.11;
 
 static void path_of(const mps_job *job, char path[RESUME_PATH])
@@ -24,7 +26,7 @@ static void path_of(const mps_job *job, char path[RESUME_PATH])
     snprintf(path, RESUME_PATH, "%s/checkpoint.mps", job->place.path);
 }
 
-/* A run of a case is that of 'mps', other jobs are those of drivers. */
+/* A run of a case is continued by 'mps', other jobs by their driver. */
 const char *mps__resume_words(const mps_job *job)
 {
     return job->config.text ? "mps resume " : "--resume with the same options";
@@ -40,7 +42,8 @@ static const char *end_option(const mps_job *job)
     return job->config.text ? "run.until" : "--t-end";
 }
 
-/* A number of summary.json in the folder; NAN: it has none. @param done  out, or NULL: that run reached its end */
+/* A number of summary.json in the folder; NAN: not found.
+ * @param done  out, or NULL: that run reached its end */
 static double number_of(const mps_job *job, const char *key, bool *done)
 {
     char path[RESUME_PATH], line[256], wanted[40];
@@ -67,7 +70,8 @@ static double reached_end(const mps_job *job)
 
 /* ---- writing ---- */
 
-/* Rows up to now are on the disk, and no checkpoint is. One without the rows before it would be of no use, the one that is there may be. */
+/* Rows up to now are on the disk, and the new checkpoint is not. A checkpoint without the rows
+ * before it is useless; the previous one may be valid. */
 static bool sync_rows(mps_job *job)
 {
     if (job->fitted || job->checkpoint_t == job->totals.t) return false;
@@ -81,7 +85,7 @@ static bool sync_rows(mps_job *job)
     return !failed;
 }
 
-/* Time of the next checkpoint by the clock, if this one took so many seconds. */
+/* Set the wall-clock time of the next checkpoint; this one took `s` seconds. */
 static void set_clock(mps_job *job, double seconds)
 {
     job->checkpoint_clock = mps__progress_clock() +
@@ -99,13 +103,13 @@ void mps__resume_save(mps_job *job)
     set_clock(job, mps__progress_clock() - begin);
 }
 
-/* Number of the first checkpoint behind t. */
+/* Number of the first checkpoint after t. */
 static int64_t next_of(const mps_job *job, double t)
 {
     return job->config.checkpoint > 0 ? (int64_t)(t / job->config.checkpoint + 1e-9) + 1 : 0;
 }
 
-/* The next step may be the first of those whose lengths are fitted to the end. */
+/* Whether the next step may be the first whose length is fitted to the end. */
 static bool may_be_fitted(const mps_job *job, const mps_step_info *info)
 {
     return job->config.t_end - info->t <= FITTED_STEPS * FITTED_GROWTH * info->dt;
@@ -131,9 +135,9 @@ bool mps__resume_forget(mps_job *job, const char *keep)
     return done;
 }
 
-/* ---- going on ---- */
+/* ---- continuing a run ---- */
 
-/* Why there is no state to go on from. */
+/* Report why there is no state to continue from. */
 static bool refuse_checkpoint(mps_job *job, mps_status status)
 {
     const bool usage = status == MPS_E_ARG || status == MPS_E_IO || status == MPS_E_VERSION;
@@ -141,7 +145,7 @@ static bool refuse_checkpoint(mps_job *job, mps_status status)
                          "--resume: %s; " RESUME_ANEW, mps_sim_error(job->sim));
 }
 
-/* A run that was killed before its first checkpoint, or is too short to have one, begins again. */
+/* Restart a run that was killed before its first checkpoint, or is too short to have one. */
 static bool begin_again(mps_job *job)
 {
     char path[RESUME_PATH];

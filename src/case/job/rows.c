@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of probes.csv and momentum.csv, and opening all tables. All ranks measure, rank 0 has the tables. */
+/* Rows of probes.csv and momentum.csv, and opening of all tables. All ranks measure, rank 0 owns
+ * the tables. */
 #include "run.h"
 #include <errno.h>
 #include <math.h>
@@ -13,7 +14,7 @@ static const char CASE_FILE[] = "case.yaml";
 
 /* ---- opening ---- */
 
-/* What follows from the rows also when the run goes on with them. */
+/* Connect the evaluations of rows, which a continued run repeats for the rows read back. */
 static void attach(mps_job *job, table *t)
 {
     if (t == &job->steps) t->each = mps__resume_add_step;
@@ -34,7 +35,7 @@ static bool open_table(mps_job *job, table *t, const char *name, const char *hea
     return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
 }
 
-/* Header of probes.csv; to be freed, NULL: memory is out. */
+/* Header of probes.csv; the caller frees it, NULL: memory is exhausted. */
 static char *probes_header(const mps_job *job)
 {
     const int columns = mps__job_columns(job);
@@ -59,7 +60,7 @@ static bool open_probes(mps_job *job)
     return done;
 }
 
-/* Names of the columns of momentum.csv, in the order of MOMENTUM_TOTAL and on. */
+/* Names of the columns of momentum.csv, in the order from MOMENTUM_TOTAL on. */
 static const char *const MOMENTA[] = {"momentum",  "gravity",  "force", "plugins",
                                       "reaction",  "pressure", "walls", "numerical",
                                       "collision", "shift",    "added", "friction"};
@@ -75,7 +76,7 @@ static bool open_momentum(mps_job *job)
     return open_table(job, &job->momentum, "momentum.csv", header, 1 + job->dim * MOMENTUM_COLUMNS);
 }
 
-/* The case as run. A process that is killed leaves this one or the one before it. */
+/* Write the case as run. A killed process leaves this file or the one before it. */
 static bool write_case(mps_job *job)
 {
     char path[FOLDER_PATH + 16], temporary[FOLDER_PATH + 24];
@@ -98,7 +99,7 @@ static bool open_all(mps_job *job)
            mps__trace_open(job);
 }
 
-/* The case is there before the rows of a new run, so that a run that is killed can begin again. */
+/* The case is written before the rows of a new run, so that a killed run can start again. */
 bool mps__job_open_tables(mps_job *job)
 {
     if (!job->config.resume)
@@ -201,8 +202,8 @@ void mps__job_sample(mps_job *job, double t)
     sample_momentum(job, t);
 }
 
-/* Search neighbours as the first step does it. What is measured before it then has that order as well, on any number of ranks. A failure
- * comes again in the step. */
+/* Search neighbours as the first step does, which sorts the particles: values measured before it
+ * then have that order too, with any number of ranks. A failure recurs in the step. */
 static void order(const mps_job *job)
 {
     mps_stencil near;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job inside: what it was told, what it writes, what it has summed up. */
+/* A job inside: its configuration, outputs and totals. */
 #ifndef MPS_CASE_RUN_H
 #define MPS_CASE_RUN_H
 
@@ -21,7 +21,7 @@ enum { JOB_ERROR = 1024, JOB_NAME = 32, JOB_UNIT = 16, JOB_ABOUT = 240, JOB_PLUG
 /* One column of probes.csv: a probe's value minus `zero`, or a quantity. */
 typedef struct job_column {
     char name[JOB_NAME], unit[JOB_UNIT];
-    /* what it is, behind a colon where and how: "Wall pressure: sensor at (0, 0.05) m" */
+    /* what it is, after a colon where and how: "Wall pressure: sensor at (0, 0.05) m" */
     char about[JOB_ABOUT];
     const char *type;       /* "wall_pressure", "pressure", "gauge", "force", "moment", "value" */
     double at[3], diameter; /* of a sensor or gauge, in the tank's frame [m] */
@@ -44,16 +44,16 @@ typedef struct job_figure {
     double measured;
 } job_figure;
 
-/* A figure from the rows of all steps. */
+/* A figure evaluated from the rows of all steps. */
 typedef struct trace_figure {
     mps_job *job;
     int column; /* of trace.csv */
     mps_trace of;
 } trace_figure;
 
-/* Known points. */
+/* Reference points. */
 typedef struct job_reference {
-    char *label, *unit, *column; /* column: NULL for all of the unit */
+    char *label, *unit, *column; /* column: NULL for all columns of the unit */
     int32_t line;
     int64_t count;
     double *t, *value;
@@ -69,16 +69,17 @@ typedef struct job_input {
     char *key, *value;
 } job_input;
 
-/* The box about the centres of some particles [m]; count 0: there are none. */
+/* Bounding box of the centres of some particles [m]; count 0: none. */
 typedef struct job_box {
     int64_t count;
     double lo[3], hi[3];
 } job_box;
 
-/* Sums over the run, for summary.json and the page. Of one that goes on from a checkpoint: seconds are without what was before it. */
+/* Totals of the run, for summary.json and the page. For a continued run, seconds exclude the time
+ * before the checkpoint. */
 typedef struct job_totals {
-    int64_t fluid, wall, dummy, steps, steps_here,
-        lost;        /* steps_here: without those before the checkpoint */
+    /* steps_here: excludes steps before the checkpoint */
+    int64_t fluid, wall, dummy, steps, steps_here, lost;
     double t_before; /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
     double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
@@ -87,8 +88,8 @@ typedef struct job_totals {
 } job_totals;
 
 struct mps_job {
-    mps_job_config config; /* with copies of its texts and times */
-    mps_sim *sim;          /* of mps_job_run() */
+    mps_job_config config; /* with its own copies of texts and times */
+    mps_sim *sim;          /* simulation of mps_job_run() */
     int32_t dim;
     double dp;
     folder place;
@@ -104,13 +105,14 @@ struct mps_job {
     double *edge; /* [6*edges] */
     trace_figure **trace;
     quantity **quantity;   /* of measures */
-    double level;          /* still level as filled in [m]; 0: that of the highest particle */
-    film_pose built;       /* of the tank, as the case is built */
+    double level;          /* still level as filled [m]; 0: that of the highest particle */
+    film_pose built;       /* pose of the tank as built */
     job_box walls, liquid; /* in the frame of the tank */
-    int32_t phases;        /* the highest number among the fluid, plus one */
+    int32_t phases;        /* highest phase number of the fluid, plus one */
     table probes, steps, momentum, trace_rows;
-    double *
-        all_rows; /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step, with dt = 0 */
+    /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step,
+     * with dt = 0 */
+    double *all_rows;
     int64_t all_count, all_room;
     bool all_failed;
     mps_frames *frames;
@@ -118,22 +120,22 @@ struct mps_job {
     double frame_t;          /* of the last frame; -1: none yet */
     mps_frames *peak_frames; /* about the highest peaks; NULL: none */
     peaks peaks;
-    int pictures;       /* taken so far */
-    double *picture_at; /* [s]; NAN: before this program went on with the run */
+    int pictures;       /* written so far */
+    double *picture_at; /* [s]; NAN: written by an earlier program */
     mps_picture_config picture;
     progress progress;
     job_totals totals;
     int64_t checkpoint;      /* number of the next checkpoint by simulated time */
     double checkpoint_t;     /* of the last; 0: none */
-    double checkpoint_clock; /* wall clock at which one is due [s] */
-    double fluid_at_start;   /* particles of fluid when a run that goes on began; NAN: not known */
-    bool fitted;          /* the steps are fitted to the end: no checkpoint is written any more */
-    double *start;        /* row of t = 0, until it is written after the first step */
-    double *row;          /* scratch, as long as a row of probes.csv or trace.csv */
-    double step_end;      /* wall clock when the last step's outputs were done */
-    double lock_clock;    /* wall clock at which the lock was renewed */
-    double summary_clock; /* wall clock of the last summary.json of an unfinished run; 0: none */
-    int messages;         /* of the library, shown so far */
+    double checkpoint_clock; /* wall clock of the next due checkpoint [s] */
+    double fluid_at_start;   /* fluid particles at the start of a continued run; NAN: not known */
+    bool fitted;             /* steps are fitted to the end: no more checkpoints */
+    double *start;           /* row of t = 0, written after the first step */
+    double *row;             /* workspace as long as a row of probes.csv or trace.csv */
+    double step_end;         /* wall clock when the outputs of the last step were done */
+    double lock_clock;       /* wall clock at which the lock was renewed */
+    double summary_clock;    /* wall clock of the last summary.json of an unfinished run; 0: none */
+    int messages;            /* of the library, shown so far */
     bool output_failed;
     bool ran;
     volatile sig_atomic_t stop;
@@ -145,99 +147,108 @@ struct mps_job {
 
 /* ---- job.c ---- */
 
-/* Note the first failure. @return false */
+/* Record the first failure. @return false */
 bool mps__job_fail(mps_job *job, int32_t code, const char *format, ...);
-/* The same for calls of the program, whose last failure counts. @return status */
+/* Record a failure of a call of the program; the last one counts. @return status */
 mps_status mps__job_refuse(mps_job *job, mps_status status, const char *format, ...);
-/* Say a text as it is. */
+/* Log a text unchanged. */
 void mps__job_show(mps_job *job, int32_t kind, const char *text);
-/* Say a message behind the name of the job. */
+/* Log a message with the name of the job as prefix. */
 void mps__job_tell(mps_job *job, const char *format, ...);
-/* Remember the first thing that went wrong besides stepping. @return false if it did */
+/* Record the first failure other than one of a step. @return false on failure */
 bool mps__job_note(mps_job *job, mps_status status, const char *what);
-/* `array` with room for one element behind `count` of them, or NULL. */
+/* Grow `array` to hold one element after `count`; NULL: memory is exhausted. */
 void *mps__job_grown(void *array, int count, size_t size);
-/* A copy, or NULL; also of NULL. */
+/* A copy, or NULL; NULL of NULL. */
 char *mps__job_copy(const char *text);
 
-/* Load a library: from the folder of the program, from where it is installed beside that folder, or where the system has libraries. NULL: dlerror() */
+/* Load a library from the folder of the program, from its installed folder beside that one, or from
+ * the search path of the system. NULL: dlerror() */
 void *mps__job_module(const char *name);
-/* Whether a device has such a name. */
+/* Whether this is a valid name of a device. */
 bool mps__job_device_known(const char *device);
-/* Let the steps run on the device that was asked for. @return false: the job has failed */
+/* Select the requested device for the steps. @return false: the job has failed */
 bool mps__job_device(mps_job *job);
 /* ---- ranks.c ---- */
 
 bool mps__job_first(const mps_job *job); /* this is rank 0 */
 int32_t mps__job_ranks(const mps_job *job);
-/* Largest value of all ranks. All ranks make this call. */
+/* Maximum over all ranks. Collective call. */
 int32_t mps__job_most(mps_job *job, int32_t value);
-/* A value that rank 0 decides. Values are not negative. */
+/* Broadcast a value of rank 0. Values are not negative. */
 int32_t mps__job_told(mps_job *job, int32_t value);
-/* All ranks make this call. @return false: one of them has failed, and all have its code */
+/* Collective call. @return false: a rank has failed, and all ranks have its code */
 bool mps__job_agree(mps_job *job);
-/* Particles of all ranks at rank 0, until mps__job_gather_end(), which is allowed after a failure as well. */
+/* Collect the particles of all ranks on rank 0, until mps__job_gather_end(), which is valid after a
+ * failure too. */
 bool mps__job_gather(const mps_job *job);
 void mps__job_gather_end(const mps_job *job);
 
 /* ---- columns.c ---- */
 
-/* Columns of probes.csv behind the time, and column k of them: those that were added, then the common ones. */
+/* Number of columns of probes.csv after the time, and column k: added columns first, then the
+ * common ones. */
 int mps__job_columns(const mps_job *job);
 job_column mps__job_column(const mps_job *job, int k);
-/* One of the common columns, or the time, has this name. */
+/* Whether one of the common columns, or the time, has this name. */
 bool mps__job_is_common(const char *name);
-/* Measure the boxes of walls and liquid, and the pose of the tank, before the first step or a checkpoint. */
+/* Measure the bounding boxes of walls and liquid, and the pose of the tank, before the first step
+ * or a checkpoint. */
 void mps__job_boxes(mps_job *job);
-/* Depth of the liquid at the start [m]; NAN if it does not stand on the floor. */
+/* Depth of the liquid at the start [m]; NAN if it does not rest on the floor. */
 double mps__job_depth(const mps_job *job);
 
 /* ---- rows.c ---- */
 
-/* Values of the added columns now; NAN where one cannot be measured. All ranks make this call, rank 0 gets all values.
+/* Present values of the added columns; NAN where one cannot be measured. Collective call, rank 0
+ * gets all values.
  * @param values  [columns] */
 void mps__job_measure(mps_job *job, double *values);
-/* Open all tables, or go on with them from the checkpoint. @return false: it failed */
+/* Open all tables, or continue them from the checkpoint. @return false: failed */
 bool mps__job_open_tables(mps_job *job);
-/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
+/* Record the state before the first step. The files of a continued run contain its row: it is only
+ * used to interpolate the next one. */
 void mps__job_first_rows(mps_job *job);
-/* A row at t. */
+/* Record a row at t. */
 void mps__job_sample(mps_job *job, double t);
-/* There is no pressure before the first step: the row of t = 0 waits for it and takes its pressures, or goes out without (NULL). */
+/* There is no pressure before the first step: the row of t = 0 is kept and written with its
+ * pressures, or without (NULL). */
 void mps__job_write_start(mps_job *job, const double *first);
 
 /* ---- trace.c ---- */
 
-/* Open trace.csv or go on with it, if there is to be one. @return false: it failed */
+/* Open or continue trace.csv, if it is requested. @return false: failed */
 bool mps__trace_open(mps_job *job);
-/* Take a row of it. */
+/* Record a row of trace.csv. */
 void mps__trace_step(mps_job *job, double t, double dt);
 
 /* ---- resume.c ---- */
 
 #define RESUME_ANEW "start anew with --overwrite, or in another folder with --out"
 
-/* Go on from the checkpoint; without one the run begins again, and config.resume is 0. All ranks make this call.
+/* Continue from the checkpoint; without one the run starts again, and config.resume is 0.
+ * Collective call.
  * @return false: it failed on this rank */
 bool mps__resume_read(mps_job *job);
-/* How a user continues the run, in the words of the program: of 'mps', or of a driver; a folder behind it, "" of a driver. */
+/* How a user continues the run: the command of 'mps', or of a driver; a folder follows it, "" for a
+ * driver. */
 const char *mps__resume_words(const mps_job *job);
 const char *mps__resume_folder(const mps_job *job);
-/* Begin anew: remove an earlier run, but for the file `keep`, or NULL. */
+/* Remove an earlier run, except the file `keep`, or NULL. */
 bool mps__resume_forget(mps_job *job, const char *keep);
-/* Check what the tables have, and cut them at the checkpoint. */
+/* Check the rows of the tables, and truncate them at the checkpoint. */
 bool mps__resume_tables(mps_job *job);
-/* A table_row_fn for steps.csv: take a step into the totals. */
+/* A table_row_fn for steps.csv: add a step to the totals. */
 void mps__resume_add_step(void *job, const double *row);
-/* Is a checkpoint due after this step? */
+/* Whether a checkpoint is due after this step. */
 bool mps__resume_due(mps_job *job, const mps_step_info *info);
-/* Write a checkpoint. All ranks make this call. */
+/* Write a checkpoint. Collective call. */
 void mps__resume_save(mps_job *job);
 
 /* ---- colours.c ---- */
 
-/* Title, gravity and colour scale of all pictures. All ranks make this call, before a checkpoint is read: the scale is that of the case as it
- * is built. */
+/* Set title, gravity and colour scale of all pictures. Collective call, before a checkpoint is
+ * read: the scale is that of the case as built. */
 void mps__colours_begin(mps_job *job);
 
 /* ---- drawing.c ---- */
@@ -245,30 +256,31 @@ void mps__colours_begin(mps_job *job);
 /* What rank 0 finds due after a step, and all ranks then do. */
 enum { DUE_SAMPLE = 1, DUE_FRAME = 2, DUE_PICTURE = 4, DUE_CHECKPOINT = 8, DUE_PEAK = 16 };
 
-/* Frames about peaks: which columns are looked at. All ranks make this call before the tables
- * are opened. */
+/* Select the columns whose peaks get frames. Collective call before the tables are opened. */
 void mps__peaks_begin(mps_job *job);
-/* DUE_PEAK, after a sample. All ranks make this call. */
+/* DUE_PEAK, after a sample. Collective call. */
 int mps__peaks_due(mps_job *job);
 void mps__frames_begin(mps_job *job);
 /* DUE_FRAME and DUE_PICTURE. */
 int mps__drawing_due(const mps_job *job, double t);
-/* Pictures up to t were taken by an earlier program. */
+/* Skip pictures up to t, which an earlier program wrote. */
 void mps__drawing_skip(mps_job *job, double t);
-/* Frames and pictures of the particles of all ranks. */
+/* Write frames and pictures of the particles of all ranks. */
 void mps__drawing_do(mps_job *job, double t, int due);
-/* The last state, also of a run that broke off: frame, picture, figures of particles. */
+/* Write the final state, also of an aborted run: frame, picture, figures of particles. */
 void mps__drawing_end(mps_job *job, mps_status status);
 
 /* ---- finish.c, summary.c, page.c ---- */
 
 /* The first table that could not be written, or NULL. */
 const table *mps__job_failed_table(const mps_job *job);
-/* All that comes after the last step. @param wall_s,cpu_s  times up to it [s] @return exit code */
+/* All work after the last step. @param wall_s,cpu_s  times up to it [s] @return exit code */
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
-/* summary.json; before totals.status is set, that of a run that is unfinished. @return false: it could not be written, job->error says why */
+/* Write summary.json; that of an unfinished run before totals.status is set.
+ * @return false: it could not be written, job->error is the reason */
 bool mps__summary_save(mps_job *job);
-/* report.html, if it is wanted. @return false: likewise */
+/* Write report.html, if it is requested.
+ * @return false: it could not be written, job->error is the reason */
 bool mps__page_save(mps_job *job);
 /* "solver/preconditioner" */
 void mps__job_solver(const mps_job *job, char *text, size_t size);

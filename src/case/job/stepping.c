@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stepping a run to its end: rows, frames, pictures and checkpoints after each step, and Ctrl-C. */
+/* Steps a run to its end: rows, frames, pictures and checkpoints after each step, and Ctrl-C. */
 #include "run.h"
 #include <math.h>
 #include <stdio.h>
@@ -7,23 +7,23 @@
 #include <string.h>
 #include <time.h>
 
-/* Why all ranks stop; the more serious is the larger. */
+/* Why all ranks stop; the more serious reason is larger. */
 enum { STOP_INTERRUPTED = 1, STOP_FAILED = 2 };
 
 /* ---- signals ---- */
 
-/* Handlers have no argument: this is the one job of the process that catches signals. */
+/* A signal handler has no argument: this is the one job of the process that catches signals. */
 static volatile sig_atomic_t interrupted, repeated;
 
 enum { SIGNALS = 6, ONCE = 2, SPACING_TEXT = 160 };
-/* The first ONCE of them end the program when they come again; terminals that close, queues and limits of the processor time send the others
- * more than once. */
+/* A second one of the first ONCE signals ends the program; closing terminals, batch queues and
+ * limits of processor time send the others more than once. */
 static const int CAUGHT[SIGNALS] = {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU};
 
 /* [s] */
 static const double SUMMARY_INTERVAL = 10, LOCK_INTERVAL = 20;
 
-/* What the program had for each signal. */
+/* Previous handler of each signal. */
 typedef struct handlers {
     bool set[SIGNALS];
     struct sigaction before[SIGNALS];
@@ -35,7 +35,8 @@ static void on_interrupt(int signal)
     interrupted = 1;
 }
 
-/* The handler is installed for one SIGINT and one SIGTERM: a second Ctrl-C ends the program at once. */
+/* The handler is installed for one SIGINT and one SIGTERM: a second Ctrl-C ends the program
+ * immediately. */
 static void catch_signals(const mps_job *job, handlers *h)
 {
     *h = (handlers){{false}, {{.sa_flags = 0}}};
@@ -46,12 +47,14 @@ static void catch_signals(const mps_job *job, handlers *h)
         sigemptyset(&action.sa_mask);
         sigaction(CAUGHT[k], NULL, &h->before[k]);
         if (k >= ONCE) action.sa_flags = 0;
-        if (CAUGHT[k] == SIGHUP && h->before[k].sa_handler == SIG_IGN) continue; /* by nohup */
+        /* ignored by nohup */
+        if (CAUGHT[k] == SIGHUP && h->before[k].sa_handler == SIG_IGN) continue;
         h->set[k] = sigaction(CAUGHT[k], &action, NULL) == 0;
     }
 }
 
-/* After a signal that is sent more than once the program has to unlock the folder and to return its code: the next one must not end it before. */
+/* After a signal that is sent more than once the program still has to unlock the folder and return
+ * its code: the next one must not end it earlier. */
 static void release_signals(const handlers *h)
 {
     const struct sigaction ignore = {.sa_handler = SIG_IGN};
@@ -70,7 +73,7 @@ static void add_up(mps_job *job, const mps_step_info *info, const double *row)
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
 
-/* The row of a step, and what else is due after it. */
+/* Record the row of a step, and determine what else is due after it. */
 static int take_step(mps_job *job, const mps_step_info *info)
 {
     const double row[STEP_COLUMNS] = {info->t,
@@ -85,14 +88,15 @@ static int take_step(mps_job *job, const mps_step_info *info)
                                       info->ppe_solves};
     add_up(job, info, row);
     mps__table_append(&job->steps, row);
-    /* interpolation needs the samples on both sides of an output time; the next step is at most a little longer than this one */
+    /* interpolation needs samples on both sides of an output time; the next step is at most a
+     * little longer than this one */
     const bool sample = job->totals.steps == 1 ||
                         mps__table_wants(&job->probes, info->t, 2 * info->dt);
     return (sample ? DUE_SAMPLE : 0) | mps__drawing_due(job, info->t) |
            (mps__resume_due(job, info) ? DUE_CHECKPOINT : 0);
 }
 
-/* What pages and statistics of a run that is not finished are made from, also where the process is killed. */
+/* Write what pages and statistics of an unfinished run need, also if the process is killed. */
 static void save_unfinished(mps_job *job)
 {
     mps__table_flush(&job->probes);
@@ -120,7 +124,7 @@ static void show_progress(mps_job *job, const mps_step_info *info)
     mps__folder_renew(&job->place);
 }
 
-/* What all ranks do now. */
+/* Agree on what all ranks do next. */
 static int agree_to_stop(mps_job *job)
 {
     const bool wanted = job->stop || (job->config.signals && interrupted);
@@ -164,7 +168,7 @@ static bool allocate_rows(mps_job *job)
 /* Open all tables. @return false: a rank failed */
 static bool open_job(mps_job *job)
 {
-    if (!mps__job_agree(job)) return false; /* a rank that has failed hears nothing else */
+    if (!mps__job_agree(job)) return false; /* a rank that has failed gets no other result */
     if (!job->ran) {
         mps__colours_begin(job);
         mps__job_boxes(job);
@@ -176,7 +180,7 @@ static bool open_job(mps_job *job)
     else if (!job->code && allocate_rows(job) && job->config.resume)
         mps__resume_read(job);
     job->ran = true;
-    if (!mps__job_agree(job)) return false; /* where another rank cannot read it, all end */
+    if (!mps__job_agree(job)) return false; /* if another rank cannot read it, all ranks end */
     job->totals.fluid = mps_particles_count(job->sim, MPS_FLUID);
     if (job->config.resume && job->fluid_at_start > 0)
         job->totals.fluid = (int64_t)job->fluid_at_start;
@@ -186,7 +190,7 @@ static bool open_job(mps_job *job)
     return mps__job_agree(job);
 }
 
-/* "0.0199 m (0.02 m asked for, cells 0.0198 x 0.02 m)": the parts that differ. */
+/* "0.0199 m (0.02 m asked for, cells 0.0198 x 0.02 m)": only the parts that differ. */
 static void describe_spacing(const mps_job *job, char text[SPACING_TEXT])
 {
     const double dp = job->dp, asked = job->config.dp;
@@ -205,7 +209,7 @@ static void describe_spacing(const mps_job *job, char text[SPACING_TEXT])
     if (other || !cubes) snprintf(text + used, SPACING_TEXT - (size_t)used, ")");
 }
 
-/* Take the first row and frame. */
+/* Write the first row and frame. */
 static void begin(mps_job *job)
 {
     const mps_job_config *c = &job->config;
@@ -223,11 +227,11 @@ static void begin(mps_job *job)
     mps__progress_from(&job->progress, s->t, s->steps);
     mps__job_first_rows(job);
     mps__frames_begin(job);
-    if (c->resume) mps__drawing_skip(job, s->t); /* taken before, maybe with another t_end */
+    if (c->resume) mps__drawing_skip(job, s->t); /* written before, possibly with another t_end */
     if (mps__job_first(job)) save_unfinished(job);
 }
 
-/* The failure that all ranks end with: rather that of the rank that failed first than that there was one. */
+/* The failure of all ranks: preferably the reason of the rank that failed first. */
 static mps_status agree_on(mps_job *job, mps_status status)
 {
     const int other = 1, most = mps__job_most(job, status >= 0             ? 0
@@ -243,7 +247,7 @@ static double cpu_clock(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-/* Step to the end, when all is open. */
+/* Step to the end, after all is open. */
 static int32_t step(mps_job *job)
 {
     const double wall = mps__progress_clock(), cpu = cpu_clock();

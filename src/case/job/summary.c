@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures, inputs, references, phases. */
+/* summary.json: one flat object for programs, with lists of columns of probes.csv, figures, inputs,
+ * references and phases. */
 #include "plain.h"
 #include "run.h"
 #include <errno.h>
@@ -28,7 +29,7 @@ static void json_text(FILE *out, const char *key, const char *text)
     json_string(out, text);
 }
 
-/* JSON has no NaN and no infinity. */
+/* JSON has neither NaN nor infinity. */
 static void json_number(FILE *out, const char *key, double value)
 {
     if (isfinite(value))
@@ -56,7 +57,8 @@ static void summary_counts(FILE *out, const mps_job *job)
     if (job->config.device) json_text(out, "device", job->config.device);
 }
 
-/* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the program that started it. */
+/* Peak memory of this program [bytes]. getrusage() includes the peak of the program that started
+ * it. */
 static double peak_memory(void)
 {
     char line[160];
@@ -88,7 +90,7 @@ static void summary_times(FILE *out, const mps_job *job)
     json_number(out, "peak_rss_bytes", peak_memory());
 }
 
-/* What pressures were averaged over [s]. */
+/* The averaging window of pressures [s]. */
 static void summary_average(FILE *out, const mps_job *job)
 {
     const bool follows = job->config.average == MPS_AVERAGE_AUTO;
@@ -99,7 +101,7 @@ static void summary_average(FILE *out, const mps_job *job)
                 follows ? job->totals.crossing_most : job->config.average);
 }
 
-/* Tank and liquid as they are built [m]. */
+/* Tank and liquid as built [m]. */
 static void summary_boxes(FILE *out, const mps_job *job)
 {
     static const char *const wall[] = {"tank_lo_x", "tank_lo_y", "tank_lo_z"};
@@ -116,7 +118,7 @@ static void summary_boxes(FILE *out, const mps_job *job)
             job->built.shift[2]);
 }
 
-/* What each column of probes.csv is, and where. */
+/* What each column of probes.csv is, and its position. */
 static void summary_columns(FILE *out, const mps_job *job)
 {
     fputs(",\n  \"columns\": [", out);
@@ -140,7 +142,7 @@ static void summary_columns(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
-/* What the figures are. */
+/* Figures and their descriptions. */
 static void summary_figures(FILE *out, const mps_job *job)
 {
     fputs(",\n  \"figures\": [", out);
@@ -167,7 +169,7 @@ static void summary_inputs(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
-/* One plug-in, with the names of what it registers. */
+/* One plug-in, with the names of its items. */
 static void summary_plugin(FILE *out, const mps_plugin_file *plugin)
 {
     static const char *const kind[] = {"model", "solver", "preconditioner", "load", "motion"};
@@ -226,7 +228,7 @@ static void summary_references(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
-/* Phases that the fluid has; "gas": of less than a hundredth of the largest density. */
+/* Phases of the fluid; "gas": less than a hundredth of the largest density. */
 static void summary_phases(FILE *out, const mps_job *job)
 {
     mps_phase p;
@@ -274,7 +276,7 @@ static void summary_edges(FILE *out, const mps_job *job)
     fputs("\n  ]", out);
 }
 
-/* When it ended and where it ran. */
+/* End time and machine. */
 static void summary_machine(FILE *out)
 {
     char text[600];
@@ -290,7 +292,8 @@ static void summary_machine(FILE *out)
     }
 }
 
-/* As built, as asked for, and along each axis, whose cells have the volume of a particle. */
+/* Spacing as built, as requested, and along each axis, whose cells have the volume of a
+ * particle. */
 static void summary_spacing(FILE *out, const mps_job *job)
 {
     double h[3];
@@ -302,7 +305,7 @@ static void summary_spacing(FILE *out, const mps_job *job)
     fputc(']', out);
 }
 
-/* Names of all models that take part in a step, those of plug-ins too. */
+/* Names of all models that take part in a step, including those of plug-ins. */
 static void summary_models(FILE *out, const mps_job *job)
 {
     const char *name;
@@ -359,7 +362,8 @@ static void summary_write(FILE *out, const mps_job *job)
     fputs("\n}\n", out);
 }
 
-/* Written beside its place and renamed: where the process is killed or the disk is full, the one before it stays. */
+/* Written to a temporary file and renamed: if the process is killed or the disk is full, the
+ * previous file stays. */
 bool mps__summary_save(mps_job *job)
 {
     char path[FOLDER_PATH + 32], temporary[FOLDER_PATH + 40];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rows of tables. */
+/* Writes and reads rows of tables. */
 #include "table.h"
 #include <errno.h>
 #include <stdlib.h>
@@ -44,7 +44,7 @@ void mps__table_append(table *t, const double *row)
     if (fputc('\n', t->file) == EOF) table_fail(t);
 }
 
-/* Output times are met within a billionth of the interval, so that 0.1 + 0.2 counts as 0.3. */
+/* Output times have a tolerance of 1e-9 of the interval, so that 0.1 + 0.2 equals 0.3. */
 static double table_time(const table *t)
 {
     return (double)t->next * t->interval;
@@ -73,9 +73,9 @@ void mps__table_sample(table *t, const double *row)
     t->has_before = true;
 }
 
-/* ---- going on with a file ---------------------------------------------------------------------------------------- */
+/* ---- continuing a file ----------------------------------------------------------------------- */
 
-/* A whole row: a number for each column, and nothing else. */
+/* Parse a complete row: one number per column, and nothing else. */
 static bool table_parse(const char *line, int columns, double *row)
 {
     for (int i = 0; i < columns; i++) {
@@ -87,7 +87,8 @@ static bool table_parse(const char *line, int columns, double *row)
     return *line == '\0';
 }
 
-/* Take rows as long as they are whole and not later than `time`; t->end is behind the last of them. */
+/* Read rows while they are complete and not later than `time`; t->end is the offset after the last
+ * of them. */
 static bool table_read(table *t, double time)
 {
     char *line = NULL;
@@ -135,7 +136,7 @@ bool mps__table_cut(table *t)
     return table_refuse(t, strerror(errno));
 }
 
-/* ---- the end ----------------------------------------------------------------------------------------------------- */
+/* ---- the end --------------------------------------------------------------------------------- */
 
 void mps__table_flush(table *t)
 {
@@ -157,7 +158,7 @@ bool mps__table_close(table *t)
 
 void mps__table_free(table *t)
 {
-    if (t->file) fclose(t->file); /* of a job that could not open all of its tables */
+    if (t->file) fclose(t->file); /* NULL in a job that could not open all of its tables */
     free(t->before);
     free(t->row);
     *t = (table){0};

@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* trace.csv: the added columns after every step, with no interpolation, and integrals, means, extremes and slopes of them. Impacts last a few
- * steps: rows at fixed times would miss them. */
+/* trace.csv: the added columns after every step, without interpolation, and integrals, means,
+ * extremes and slopes of them. An impact lasts a few steps: rows at fixed times would miss it. */
 #include "run.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Columns of trace.csv. Momentum of the fluid and what the walls gave it have three columns each, in 2-D the third is 0; behind them those
- * that were added. */
+/* Columns of trace.csv. Momentum of the fluid and the impulse of the walls on it have three columns
+ * each, in 2-D the third is 0; the added columns follow. */
 enum {
     TRACE_T,
     TRACE_DT,
@@ -18,7 +18,7 @@ enum {
 };
 enum { TRACE_ROOM = 1024 };
 
-/* Of the end of a measure, relative: a run ends within rounding of its time. */
+/* Relative tolerance of the end of a measure: a run ends within rounding of its time. */
 static const double SLACK = 1e-9;
 
 static const char *const FLOW[] = {"momentum_x", "momentum_y", "momentum_z",
@@ -26,7 +26,7 @@ static const char *const FLOW[] = {"momentum_x", "momentum_y", "momentum_z",
 
 /* ---- rows ---- */
 
-/* Keep a row; a table_row_fn as well, for the rows of the file that a run goes on with. */
+/* Keep a row; also a table_row_fn, for the rows of a continued file. */
 static void keep_row(void *user, const double *row)
 {
     mps_job *job = user;
@@ -91,9 +91,9 @@ void mps__trace_step(mps_job *job, double t, double dt)
         row[TRACE_MOMENTUM + d] = m.total[d];
         row[TRACE_WALLS + d] = m.walls[d];
     }
+    /* none before the first step */
     for (int k = 0; k < job->columns; k++)
-        if (dt == 0 && job->column[k].flags & MPS_JOB_PRESSURE)
-            row[TRACE_OWN + k] = 0; /* none before the first step */
+        if (dt == 0 && job->column[k].flags & MPS_JOB_PRESSURE) row[TRACE_OWN + k] = 0;
     mps__table_append(&job->trace_rows, row);
     keep_row(job, row);
 }
@@ -105,7 +105,7 @@ static double value_at(const mps_job *t, int64_t k, int column)
     return t->all_rows[k * t->trace_rows.columns + column];
 }
 
-/* Part of step k that lies between two times [s]. */
+/* Part of step k between two times [s]. */
 static double part(const mps_job *t, int64_t k, double from, double to)
 {
     const double end = value_at(t, k, TRACE_T), begin = end - value_at(t, k, TRACE_DT);
@@ -119,7 +119,7 @@ static double integral(const mps_job *t, int column, double from, double to)
     return sum;
 }
 
-/* A state at a time, linear between the steps. */
+/* The state at a time, linear between steps. */
 static double state(const mps_job *t, int column, double time)
 {
     int64_t k = 1;
@@ -129,7 +129,7 @@ static double state(const mps_job *t, int column, double time)
     return (1 - f) * value_at(t, k - 1, column) + f * value_at(t, k, column);
 }
 
-/* Slope of the straight line through a column, each step with its duration as its weight. */
+/* Slope of the regression line through a column; the weight of a step is its duration. */
 static double slope(const mps_job *t, int column, double from, double to)
 {
     double w = 0, wt = 0, wy = 0, wtt = 0, wty = 0;
@@ -145,7 +145,8 @@ static double slope(const mps_job *t, int column, double from, double to)
     return (w * wty - wt * wy) / (w * wtt - wt * wt);
 }
 
-/* Largest value times `sign` between two times. The mean over a window is largest where one of its ends is at the end of a step. */
+/* Largest value times `sign` between two times. The mean over a window has its extremes where one
+ * end of the window is the end of a step. */
 static double extreme(const trace_figure *f, double sign)
 {
     const mps_job *t = f->job;
@@ -199,7 +200,7 @@ mps_status mps_trace_init(mps_trace *trace, size_t size)
     return MPS_OK;
 }
 
-/* What a figure is, from its own numbers. */
+/* Describe a figure by its own numbers. */
 static void tell(const mps_trace *m, char *out, size_t size)
 {
     static const char *const kind[] = {
@@ -221,7 +222,7 @@ static void tell(const mps_trace *m, char *out, size_t size)
     if (m->scale != 1) snprintf(out + used, size - (size_t)used, ", divided by %.5g", m->scale);
 }
 
-/* Number of a column of trace.csv, or -1. */
+/* Index of a column of trace.csv, or -1. */
 static int find_column(const mps_job *job, const char *name)
 {
     for (int k = 0; name && k < job->columns; k++)

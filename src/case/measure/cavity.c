@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A flood fill of the cells without liquid. */
+/* Flood fill of the cells without liquid. */
 #include "cavity.h"
 #include <math.h>
 #include <stdlib.h>
 
 enum { LEAST_CELLS = 4, LIQUID = -1 };
 
-/* Share of liquid in what of a cell is not solid. */
+/* Fraction of liquid in the part of a cell that is not solid. */
 static double filling(const raster *g, int64_t cell)
 {
     return g->share[RASTER_LIQUID][cell] / fmax(1 - g->share[RASTER_SOLID][cell], 0.1);
@@ -54,7 +54,7 @@ static int64_t across(const raster *g, int64_t cell, int k)
     return at < 0 || at >= g->size[k / 2] ? -1 : cell + (k % 2 ? stride : -stride);
 }
 
-/* Number all cells of the body that `first` belongs to. @return how many they are */
+/* Number all cells of the region of `first`. @return their count */
 static int64_t body_fill(cavities *c, int64_t first, int32_t number)
 {
     int64_t count = 0, done = 0;
@@ -72,7 +72,8 @@ static int64_t body_fill(cavities *c, int64_t first, int32_t number)
     return count;
 }
 
-/* Empty space of the `count` cells in the queue and of the liquid cells up to two away, which are not quite full. */
+/* Empty space of the `count` cells in the queue and of the liquid cells up to two away, which are
+ * not entirely full. */
 static double body_volume(cavities *c, int64_t count)
 {
     const raster *g = &c->grid;
@@ -82,7 +83,7 @@ static double body_volume(cavities *c, int64_t count)
             for (int k = 0; k < 2 * g->dim; k++) {
                 int64_t next = across(g, c->queue[i], k);
                 if (next < 0 || c->body[next] != LIQUID) continue;
-                c->body[next] = LIQUID - 1; /* once only */
+                c->body[next] = LIQUID - 1; /* visited once only */
                 c->queue[count++] = next;
             }
     for (int64_t i = 0; i < count; i++) sum += emptiness(g, c->queue[i]);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cell by cell: what of a cell belongs to the other phase is a polygon of its corners and of crossings on its edges. */
+/* Cell by cell: the part of a cell in the other phase is a polygon of corners of the cell and of
+ * crossings on its edges. */
 #include "interface.h"
 #include <math.h>
 
@@ -15,7 +16,7 @@ typedef struct polygon {
     point at[POINTS];
 } polygon;
 
-/* Share of the other phase in the fluid about a node, less one half. */
+/* Fraction of the other phase in the fluid around a node, minus one half. */
 static double excess(const raster *g, int64_t node)
 {
     const double other = g->share[RASTER_OTHER][node], both = other + g->share[RASTER_LIQUID][node];
@@ -55,10 +56,10 @@ static void contour_add(contour *c, const polygon *p)
         c->area += 0.5 * (a->x[0] * b->x[1] - a->x[1] * b->x[0]);
         if (!a->crossing) continue;
         for (int d = 0; d < 2; d++) {
-            c->lo[d] = fmin(c->lo[d], a->x[d]); /* fmin and fmax take the number beside a NAN */
+            c->lo[d] = fmin(c->lo[d], a->x[d]); /* fmin and fmax ignore a NAN */
             c->hi[d] = fmax(c->hi[d], a->x[d]);
         }
-        /* two crossings in a row are where the line leaves the polygon's cell edges and comes back */
+        /* between two consecutive crossings the line passes through the cell */
         if (b->crossing) c->length += hypot(b->x[0] - a->x[0], b->x[1] - a->x[1]);
     }
 }

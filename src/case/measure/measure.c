@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of measures. What an entry needs of mps_measure stands at the end of its help. */
+/* The table of measures. The members of mps_measure that an entry needs are listed at the end of
+ * its help. */
 #include "measure.h"
 #include "values.h"
 #include "view.h"
@@ -147,7 +148,7 @@ static mps_status refuse(char *error, mps_status status, const char *name, const
     return status;
 }
 
-/* @return NULL, or what is wrong */
+/* @return NULL, or the error */
 static const char *check(const mps_measure *m, const measure_kind *kind, int32_t dim)
 {
     if (kind->info.dim == 2 && dim != 2) return "is for 2 dimensions";
@@ -161,7 +162,7 @@ static const char *check(const mps_measure *m, const measure_kind *kind, int32_t
     return NULL;
 }
 
-/* The box of the walls where none is given. @return false: there are no walls */
+/* The box of the walls, if none is given. @return false: there are no walls */
 static bool find_box(quantity *q, mps_sim *sim)
 {
     view v;

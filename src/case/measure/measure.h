@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Known quantities of fluid and tank by name: the table of mps_measure_info_get(), and their values. */
+/* Quantities of fluid and tank by name: the table of mps_measure_info_get(), and their values. */
 #ifndef MPS_CASE_MEASURE_H
 #define MPS_CASE_MEASURE_H
 
@@ -16,12 +16,12 @@ typedef struct measure_kind {
     const char *about; /* of its column, as in mps_job_value_add() */
     int32_t flags;     /* sum of MPS_JOB_... */
     bool by_axis;      /* `about` ends in the letter of the axis */
-    /* NULL, or: make ready what `value` needs */
+    /* NULL, or: prepare what `value` needs */
     mps_status (*open)(quantity *q, mps_sim *sim);
     double (*value)(quantity *q, mps_sim *sim);
 } measure_kind;
 
-/* A measure at work. */
+/* A measure in use. */
 struct quantity {
     const measure_kind *kind;
     mps_measure measure; /* without its texts; `box` is never all 0 */

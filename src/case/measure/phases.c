@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Chains of fluid particles by cell of two spacings. */
+/* Linked lists of fluid particles by cell of two spacings. */
 typedef struct cells {
     double lo[3], side;
     int64_t size[3];
@@ -81,7 +81,7 @@ static bool cells_build(cells *c, const mps_lease *x, const int32_t *kind)
     return true;
 }
 
-/* Fluid of the same and of other phases within the side of a cell. */
+/* Count neighbours of the same and of other phases within the side of a cell. */
 static void company(const cells *c, const mps_lease *x, const int32_t *phase, int64_t i,
                     int64_t *same, int64_t *other)
 {

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cubic B-splines on a grid: on a full lattice their sum is 1 everywhere, whatever the lattice's place on the grid. */
+/* Cubic B-splines on a grid: on a full lattice their sum is 1 everywhere, for any offset of lattice
+ * and grid. */
 #include "raster.h"
 #include "view.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { REACH = 16 }; /* nodes a particle can reach along an axis */
+enum { REACH = 16 }; /* largest number of nodes in the support of a particle along an axis */
 static const double widest = 3;
 
-/* Where a particle falls along one axis. */
+/* The weights of a particle along one axis. */
 typedef struct axis {
     int64_t first;
     int count;
@@ -46,7 +47,7 @@ void mps__raster_free(raster *g)
     memset(g->share, 0, sizeof g->share);
 }
 
-/* Nodes within reach of x, which is in spacings from the first node. */
+/* Nodes in the support of x, which is in spacings from the first node. */
 static axis axis_of(double x, int64_t size, double width)
 {
     axis a = {.first = (int64_t)ceil(x - 2 * width)};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Values of measures: loops over particles, and what rasters and sums over phases give. */
+/* Values of measures: loops over particles, and results of rasters and sums over phases. */
 #include "values.h"
 #include "interface.h"
 #include "phases.h"
@@ -19,7 +19,8 @@ mps_status mps__open_front(quantity *q, mps_sim *sim)
     return q->furthest ? MPS_OK : MPS_E_NOMEM;
 }
 
-/* Largest x in each bin, 0: empty. Bins tell the main body of liquid from drops ahead of it. */
+/* Largest x in each bin, 0: empty. Bins separate the main body of liquid from droplets in front of
+ * it. */
 static bool fill_bins(quantity *q, mps_sim *sim)
 {
     view v;

@@ -5,7 +5,7 @@
 
 #include "measure.h"
 
-/* They allocate what the values need. @return MPS_E_NOMEM */
+/* Allocate what the values need. @return MPS_E_NOMEM */
 mps_status mps__open_front(quantity *q, mps_sim *sim);
 mps_status mps__open_interface(quantity *q, mps_sim *sim);
 mps_status mps__open_cavities(quantity *q, mps_sim *sim);

@@ -12,7 +12,7 @@ typedef struct view {
 
 /* Lease all or none. */
 bool mps__view_open(mps_sim *sim, view *v);
-/* Give back what is leased. */
+/* Release all leases. */
 bool mps__view_close(mps_sim *sim, view *v);
 
 #endif

@@ -9,7 +9,7 @@ enum { NAME_MOST = 31 };
 
 static void check_node(mps_case *c, tree_node *node, const mps__key *entry);
 
-/* What a map, list or text should have been. */
+/* Report that the node should be a map, a list or a text. */
 static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
 {
     static const char *const is[] = {"a text", "a list", "a map"};
@@ -24,7 +24,7 @@ static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
                   *e->example ? ", e.g. '" : "", e->example, *e->example ? "'" : "");
 }
 
-/* ---- names and keys --------------------------------------------------------------------------- */
+/* ---- names and keys -------------------------------------------------------------------------- */
 
 static void refuse_key(mps_case *c, const tree_node *node, const mps__key *parent)
 {
@@ -41,7 +41,7 @@ static void refuse_key(mps_case *c, const tree_node *node, const mps__key *paren
         mps__case_say_key(c, node, "unknown key '%s'", path);
 }
 
-/* A name that the user has chosen. */
+/* Check a name that the user chooses. */
 static bool check_name(mps_case *c, const tree_node *node)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_",
@@ -71,7 +71,7 @@ static void check_child(mps_case *c, tree_node *child, const mps__key *parent)
     check_node(c, child, entry);
 }
 
-/* ---- maps ------------------------------------------------------------------------------------- */
+/* ---- maps ------------------------------------------------------------------------------------ */
 
 static void check_required(mps_case *c, const tree_node *map, const mps__key *entry)
 {
@@ -109,7 +109,7 @@ static void check_group(mps_case *c, const tree_node *map, const mps__key_group 
     mps__case_say_key(c, map, "%s: one of these keys is missing: %s", path, words);
 }
 
-/* A key that is given without another that it needs. */
+/* Refuse a key that needs another key which is not given. */
 static void check_needs(mps_case *c, const tree_node *map, const mps__key_group *g)
 {
     char path[PATH_ROOM];
@@ -123,9 +123,9 @@ static void check_needs(mps_case *c, const tree_node *map, const mps__key_group 
     }
 }
 
-/* A word with commas without quotes in a map in braces: "{axes: x forward, y port, z up}" has
- * the keys "y port" and "z up".
- * @return the last of its parts, after a message; NULL: it is none */
+/* A flow map in braces with an unquoted text that contains commas: "{axes: x forward, y port, z
+ * up}" has the keys "y port" and "z up".
+ * @return the last of these parts, after a message; NULL: the text is not split */
 static tree_node *split_word(mps_case *c, tree_node *node, const mps__key *entry)
 {
     char word[80], path[PATH_ROOM];
@@ -194,7 +194,7 @@ static void check_paths(mps_case *c, tree_node *map)
     if (map->kind != TREE_MAP || map->count == 0) refuse_kind(c, map, "a map of paths and values");
 }
 
-/* A text in the place of a map, `rest`. */
+/* Whether the node is a text that replaces the map, `rest`. */
 static bool is_word(const tree_node *node, const mps__key *entry)
 {
     return node->kind == TREE_TEXT && entry->words &&
@@ -229,7 +229,7 @@ static void check_node(mps_case *c, tree_node *node, const mps__key *entry)
     }
 }
 
-/* What the checks have read is not read yet. */
+/* The checks mark nodes as read: clear these marks. */
 static void forget_reads(tree_node *node)
 {
     for (tree_node *n = node->first; n; n = n->next) {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names of models, solvers and kernels, and settings with their units and ranges, as libmps lists them. */
+/* Checks names of models, solvers and kernels, and units and ranges of settings, against the lists
+ * of libmps. */
 #include "tree.h"
 #include "units.h"
 #include <math.h>
@@ -8,12 +9,13 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Lists of names in libmps. */
+/* A function of libmps that lists names. */
 typedef mps_status (*list_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
 
 enum { NAME_ROOM = 64 };
 
-/* The nearest of the names that `list` has, into `nearest`; @return whether the name itself is there */
+/* Write the nearest of the names of `list` into `nearest`.
+ * @return whether the list has the name itself */
 static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *nearest)
 {
     mps_name_info info;
@@ -45,9 +47,9 @@ static void check_name(mps_case *c, const mps_sim *sim, const tree_node *node, c
     if (!find_name(sim, list, node->text, nearest)) refuse_name(c, node, what, nearest);
 }
 
-/* ---- models ----------------------------------------------------------------------------------- */
+/* ---- models ---------------------------------------------------------------------------------- */
 
-/* Whether a model, or a slot of models, has this name; else the nearest. */
+/* Whether a model or a slot of models has this name; else its nearest name. */
 static bool find_model(const mps_sim *sim, const char *name, bool slot, char *nearest)
 {
     mps_model_info info;
@@ -75,7 +77,7 @@ static void check_model(mps_case *c, const mps_sim *sim, const tree_node *node, 
         refuse_name(c, node, slot ? "slot or model" : "model", nearest);
 }
 
-/* A text, or each text of a list. */
+/* Check a text, or each text of a list. */
 static void check_model_list(mps_case *c, const mps_sim *sim, const tree_node *list, bool slot)
 {
     if (!list) return;
@@ -83,16 +85,16 @@ static void check_model_list(mps_case *c, const mps_sim *sim, const tree_node *l
     for (const tree_node *n = list->first; n; n = n->next) check_model(c, sim, n, slot);
 }
 
-/* ---- settings --------------------------------------------------------------------------------- */
+/* ---- settings -------------------------------------------------------------------------------- */
 
-/* The nearest of the names of settings so far. */
+/* The setting searched for, and the nearest name of a setting so far. */
 typedef struct search {
     const char *name;
     int32_t best;
     char nearest[NAME_ROOM];
 } search;
 
-/* Whether slot.key is the setting that is looked for. */
+/* Whether slot.key is the setting that is searched for. */
 static bool is_setting(search *s, const char *slot, size_t length, const char *key)
 {
     char known[NAME_ROOM];
@@ -105,7 +107,8 @@ static bool is_setting(search *s, const char *slot, size_t length, const char *k
     return false;
 }
 
-/* Among the settings of all models of a slot, then of loads and motions of plug-ins; else the nearest. */
+/* Search the settings of all models of a slot, then those of loads and motions of plug-ins; if
+ * there is none, find the nearest name. */
 static bool find_setting(const mps_case *c, const mps_sim *sim, search *s, mps_setting_info *found)
 {
     const mps_drive_ops *drive;
@@ -132,7 +135,8 @@ static bool find_setting(const mps_case *c, const mps_sim *sim, search *s, mps_s
     return false;
 }
 
-/* The unit of a setting may be one that no key of a case has: then it is taken as it is written. @return false: a message */
+/* Read a setting whose unit may be one that no key of a case has: its text is then used as written.
+ * @return false: there is a message */
 static bool take_unit(mps_case *c, tree_node *node, const char *unit)
 {
     const mps__unit *u = mps__unit_find(unit, strlen(unit));
@@ -155,7 +159,7 @@ static bool take_unit(mps_case *c, tree_node *node, const char *unit)
     return false;
 }
 
-/* Of a flag. */
+/* Read a flag. */
 static void take_flag(tree_node *node)
 {
     if (node->kind != TREE_TEXT) return;
@@ -205,9 +209,9 @@ bool mps__node_setting(mps_case *c, const tree_node *node, double *value)
     return done;
 }
 
-/* ---- plug-ins --------------------------------------------------------------------------------- */
+/* ---- plug-ins -------------------------------------------------------------------------------- */
 
-/* A load or motion of a plug-in by its name, below `map` of the case. */
+/* Check the name of a load or motion of a plug-in, below `map` of the case. */
 static void check_drive(mps_case *c, const tree_node *node, int32_t kind)
 {
     const char *what = kind == MPS_PLUGIN_LOAD ? "load" : "motion";
@@ -231,8 +235,9 @@ static bool has_text(const tree_node *node, const char *text)
     return false;
 }
 
-/* A plug-in of which the case uses nothing is mostly a line that is missing. */
-enum { USERS = 5 }; // keys that may name what a plug-in has
+enum { USERS = 5 }; /* keys that may name an item of a plug-in */
+
+/* A plug-in of which the case uses nothing usually means a missing line. */
 static void warn_of_unused(mps_case *c, const tree_node *const used[USERS])
 {
     static const char *const key[USERS] = {"use: [", "run: {solver: ", "run: {preconditioner: ",
@@ -251,7 +256,7 @@ static void warn_of_unused(mps_case *c, const tree_node *const used[USERS])
     }
 }
 
-/* ---- all -------------------------------------------------------------------------------------- */
+/* ---- all ------------------------------------------------------------------------------------- */
 
 static const tree_node *below(const tree_node *root, const char *map, const char *key)
 {
@@ -259,7 +264,7 @@ static const tree_node *below(const tree_node *root, const char *map, const char
     return node && node->kind == TREE_MAP ? mps__tree_find(node, key) : NULL;
 }
 
-/* All that names something of libmps or of a plug-in. */
+/* Keys whose values name something of libmps or of a plug-in. */
 enum { MODEL, USE, REMOVE, SETTINGS, SOLVER, PRECONDITIONER, KERNEL, LOAD, MOTION, NAMES };
 
 static void find_names(const tree_node *root, const tree_node *names[NAMES])

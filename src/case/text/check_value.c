@@ -25,9 +25,10 @@ static void refuse(mps_case *c, const tree_node *node, const char *wanted)
                       e->example);
 }
 
-/* ---- numbers ---------------------------------------------------------------------------------- */
+/* ---- numbers --------------------------------------------------------------------------------- */
 
-/* The elements of a list of texts, with blanks between; the text of a text. NULL: a list of others, or no memory. */
+/* The elements of a list of texts, joined with blanks; of a text, the text. NULL: the list has
+ * other elements, or memory is exhausted. */
 static const char *joined(mps_case *c, const tree_node *node)
 {
     size_t length = 1;
@@ -43,7 +44,8 @@ static const char *joined(mps_case *c, const tree_node *node)
     return text;
 }
 
-/* How many numbers are wanted. A case may be run in 2-D and in 3-D, so that places may have the third number in 2-D. */
+/* How many numbers are required. A case may be run in 2-D and in 3-D, so a position may have its
+ * third number in 2-D too. */
 static void expect_count(const mps__key *e, int32_t *few, int32_t *many)
 {
     const bool place = e->shape == SHAPE_POINTS || e->few == COUNT_DIM;
@@ -73,7 +75,7 @@ static bool in_range(mps_case *c, const tree_node *node, const mps__numbers *n)
             return false;
         }
         if (isnan(n->out[k]) || mps__range_holds(e->range, n->out[k], n->relative)) continue;
-        if (strcmp(e->path, "mps") == 0) /* the range is that of the versions */
+        if (strcmp(e->path, "mps") == 0) /* the range of `mps` lists versions */
             mps__case_say(c, node, false,
                           "mps: version %.20s is out of its range: this program reads version %s",
                           n->text, e->example);
@@ -154,7 +156,7 @@ static void check_points(mps_case *c, tree_node *node)
     }
 }
 
-/* ---- texts ------------------------------------------------------------------------------------ */
+/* ---- texts ----------------------------------------------------------------------------------- */
 
 static void check_texts(mps_case *c, tree_node *node)
 {
@@ -166,7 +168,7 @@ static void check_texts(mps_case *c, tree_node *node)
         refuse(c, node, "a text, or a list of such");
 }
 
-/* The nearest of the words that are allowed. */
+/* Refuse a word and propose the nearest allowed one. */
 static void refuse_word(mps_case *c, const tree_node *node)
 {
     char path[PATH_ROOM], known[80], nearest[80] = "";
@@ -233,7 +235,7 @@ static void check_file(mps_case *c, const tree_node *node)
 
 void mps__check_value(mps_case *c, tree_node *node)
 {
-    if (strcmp(node->entry->path, "settings.*") == 0) return; /* mps__check_models() */
+    if (strcmp(node->entry->path, "settings.*") == 0) return; /* checked by mps__check_models() */
     switch (node->entry->shape) {
     case SHAPE_NUMBERS:
         check_numbers(c, node);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finding keys in the table, and words that are near. */
+/* Searches keys in the table, and words of similar spelling. */
 #include "keys.h"
 #include <stdio.h>
 #include <string.h>
@@ -23,13 +23,14 @@ bool mps__words_have(const char *words, const char *word, size_t length)
     return false;
 }
 
-/* Length of the first element of a path. Names with points in them are no elements of the table. */
+/* Length of the first element of a path. A name that contains points is not an element of the
+ * table. */
 static size_t element(const char *path)
 {
     return strcspn(path, ".");
 }
 
-/* Whether an element of a key stands for all that the element of its parent stands for. */
+/* Whether an element of a key matches every name that the element of its parent matches. */
 static bool covers(const char *key, size_t key_length, const char *parent, size_t parent_length)
 {
     if (key_length == parent_length && memcmp(key, parent, key_length) == 0) return true;
@@ -47,7 +48,7 @@ static bool covers(const char *key, size_t key_length, const char *parent, size_
     return true;
 }
 
-/* What stands in `path` behind the elements of `parent`; NULL: it is not below. */
+/* The rest of `path` after the elements of `parent`; NULL: `path` is not below it. */
 static const char *behind(const char *parent, const char *path)
 {
     while (*parent) {
@@ -101,7 +102,8 @@ static int32_t least(int32_t a, int32_t b)
 
 enum { WORD_ROOM = 40 };
 
-/* Letters to change, add, leave out or exchange with the next, from one word to the other. */
+/* Damerau edit distance of two words: letters to change, insert, remove or exchange with the
+ * next. */
 static int32_t word_distance(const char *a, const char *b)
 {
     const int32_t n = (int32_t)strlen(a), m = (int32_t)strlen(b);
@@ -130,7 +132,7 @@ bool mps__words_near(const char *a, const char *b, int32_t *distance)
     while (a[same] && a[same] == b[same]) same++;
     *distance = word_distance(a, b);
     if (*distance <= 2 && (size_t)*distance < (la > lb ? la : lb)) return true;
-    *distance += WORD_ROOM; /* a common beginning is the worse sign */
+    *distance += WORD_ROOM; /* a common prefix ranks after a small distance */
     return same >= 3 && (same == la || same == lb);
 }
 
@@ -158,7 +160,7 @@ const char *mps__key_nearest(const mps__key *parent, const char *name, char *buf
     return found ? buffer : NULL;
 }
 
-/* The parent of a key: the first key that it is below. */
+/* The parent of a key: the first key of the table above it. */
 static const mps__key *parent_of(const mps__key *key)
 {
     for (int32_t k = 0; k < mps__keys_count; k++)
@@ -180,7 +182,7 @@ const mps__key *mps__key_elsewhere(const char *name)
 
 bool mps__group_is_of(const mps__key_group *group, const mps__key *entry)
 {
-    char below[100]; /* of the pattern of the group, as a key of the group would be */
+    char below[100]; /* pattern of the group as a path of a key */
     const int length = snprintf(below, sizeof below, "%s%sx", group->path,
                                 group->path[0] ? "." : "");
     const mps__key probe = {.path = below};
@@ -197,7 +199,7 @@ const mps__key *mps__key_at(const char *path)
         memcpy(name, path, length);
         name[length] = '\0';
         path += length + (path[length] == '.');
-        /* of several maps one is named by its number */
+        /* one of several maps is named by its number */
         if (key->shape == SHAPE_MAPS && name[strspn(name, "0123456789")] == '\0') continue;
         key = mps__key_below(key, name);
     }

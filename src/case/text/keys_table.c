@@ -19,7 +19,7 @@
     {                                                                  \
         path, SHAPE_MAP, 0, 0, 0, "", NULL, false, false, "", "", help \
     }
-/* a quantity, several, and points */
+/* a quantity, several quantities, and points */
 #define ONE(path, units, range, otherwise, example, help)                                     \
     {                                                                                         \
         path, SHAPE_NUMBERS, units, 1, 1, range, NULL, false, false, otherwise, example, help \
@@ -403,7 +403,7 @@ const mps__key_group mps__key_groups[] = {
     {"reference.*", "file|times", true},
 };
 
-/* A key that is of no use without another. */
+/* Keys that need another key. */
 const mps__key_group mps__key_needs[] = {
     {"tank", "stl|unit", true},          {"solids.*", "stl|unit", true},        
     {"reference.*", "times|values", true}, {"reference.*", "values|times", true},

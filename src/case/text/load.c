@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Case files and the files below them, pages that carry a case, and the calls that read a case. */
+/* Reads case files with the files that they include, and pages that contain a case. */
 #include "tree.h"
 #include <errno.h>
 #include <limits.h>
@@ -11,7 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Pages carry a film: they are larger than case files. */
+/* Pages contain a film and are larger than case files. */
 static const size_t PAGE_BYTES = (size_t)1 << 28;
 enum { BASES = 8 };
 
@@ -22,7 +22,7 @@ int32_t mps__source_add(mps_case *c, const mps__source *source)
     return c->sources++;
 }
 
-/* ---- pages ------------------------------------------------------------------------------------ */
+/* ---- pages ----------------------------------------------------------------------------------- */
 
 static const char page_begin[] = "<script type=\"text/yaml\" id=\"case\">",
                   page_end[] = "</script>";
@@ -46,7 +46,7 @@ char *mps__page_case(char *page, size_t *size, int32_t *line)
     return begin;
 }
 
-/* ---- files ------------------------------------------------------------------------------------ */
+/* ---- files ----------------------------------------------------------------------------------- */
 
 static bool is_page(const char *path)
 {
@@ -54,7 +54,7 @@ static bool is_page(const char *path)
     return point && (strcasecmp(point, ".html") == 0 || strcasecmp(point, ".htm") == 0);
 }
 
-/* A file that cannot be read, at the node that names it, or by its own name. */
+/* Refuse a file that cannot be read, at the node that names it, or by its own name. */
 static void refuse_file(mps_case *c, const char *path, const tree_node *from, const char *why)
 {
     c->no_file = true;
@@ -68,7 +68,7 @@ static void refuse_file(mps_case *c, const char *path, const tree_node *from, co
     mps__case_fail(c, (mps__place){source < 0 ? 0 : source, 0, 0}, "it cannot be read: %s", why);
 }
 
-/* All bytes of a file, malloc'd, with a 0 behind. */
+/* Read a whole file into malloc'd memory with a terminating 0. */
 static char *read_all(FILE *file, size_t size, size_t *got)
 {
     char *text = malloc(size + 1);
@@ -98,7 +98,7 @@ static char *read_file(mps_case *c, const char *path, const tree_node *from, siz
     return text;
 }
 
-/* The folder of a file, absolute unless the present folder is gone. */
+/* The folder of a file, absolute unless the current folder was removed. */
 const char *mps__folder_of(mps_case *c, const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -109,9 +109,9 @@ const char *mps__folder_of(mps_case *c, const char *path)
     return mps__case_print(c, "%s/%.*s", strcmp(here, "/") == 0 ? "" : here, length, path);
 }
 
-/* ---- base ------------------------------------------------------------------------------------- */
+/* ---- base ------------------------------------------------------------------------------------ */
 
-/* The chain of files that are being read. */
+/* The chain of files that are being read, to detect a cycle. */
 typedef struct chain {
     const struct chain *before;
     dev_t device;
@@ -150,7 +150,7 @@ static tree_node *load_base(mps_case *c, const tree_node *base, const chain *fil
     return load(c, path, base, files);
 }
 
-/* Values of `set` go to their paths. */
+/* Write the values of `set` to their paths. */
 static void apply_set(mps_case *c, tree_node *root)
 {
     tree_node *set = mps__tree_find(root, "set");
@@ -225,9 +225,9 @@ const char *mps__file_path(mps_case *c, const tree_node *node)
     return mps__case_print(c, "%s%s", c->source[node->source].folder, node->text);
 }
 
-/* ---- calls ------------------------------------------------------------------------------------ */
+/* ---- calls ----------------------------------------------------------------------------------- */
 
-/* Paths that `sets` give are no longer swept. */
+/* Remove the paths that `sets` assigns from the sweep. */
 static void settle_sweep(tree_node *root, int32_t count, const char *const *sets)
 {
     tree_node *sweep = mps__tree_find(root, "sweep");
@@ -247,7 +247,8 @@ static mps_status finish(mps_case *c, tree_node *root, const mps_case_options *o
 {
     if (root && !c->no_memory) {
         for (int32_t k = 0; k < o->set_count; k++) mps__set_text(c, root, o->set[k]);
-        settle_sweep(root, o->set_count, o->set); /* that of `sets` too: runs of it get both */
+        /* also for `sweep` given by `sets`: its runs get both */
+        settle_sweep(root, o->set_count, o->set);
         mps__plugins_put(c, root, o->plugin_count, o->plugin);
         c->root = root;
         if (!c->no_memory) mps__check(c, root);
@@ -276,7 +277,7 @@ static bool check_options(const mps_case_options *o)
            all_given(o->plugin_count, o->plugin);
 }
 
-/* The tree of a text from memory. */
+/* Parse a text from memory. */
 static tree_node *load_text(mps_case *c, const char *name, const char *text, size_t size)
 {
     if (size > TREE_BYTES) {

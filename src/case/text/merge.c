@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Merging: `base` under its file, and single values at paths, "fill.water.depth". */
+/* Merges trees: `base` under its file, and single values at paths, "fill.water.depth". */
 #include "tree.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* The group of a key below `parent`: keys of which a map may have one; NULL: none. */
+/* The group of mutually exclusive keys of a key below `parent`; NULL: none. */
 static const char *group_of(const mps__key *parent, const char *key)
 {
     for (int32_t k = 0; parent && k < mps__key_groups_count; k++) {
@@ -15,7 +15,7 @@ static const char *group_of(const mps__key *parent, const char *key)
     return NULL;
 }
 
-/* A new value of a group takes the place of the others. */
+/* A new value of a group replaces the other values of the group. */
 static void drop_others(const mps__key *parent, tree_node *map, const char *key)
 {
     const char *group = group_of(parent, key);
@@ -26,7 +26,7 @@ static void drop_others(const mps__key *parent, tree_node *map, const char *key)
     }
 }
 
-/* Put a child into a map, in place of one of its key. */
+/* Insert a child into a map; it replaces a child of the same key. */
 static void put(const mps__key *entry, tree_node *map, tree_node *child)
 {
     tree_node *there = mps__tree_find(map, child->key);
@@ -62,7 +62,7 @@ void mps__merge(tree_node *under, tree_node *over)
     merge(&mps__keys[0], under, over);
 }
 
-/* ---- values at paths --------------------------------------------------------------------------- */
+/* ---- values at paths ------------------------------------------------------------------------- */
 
 typedef struct way {
     mps_case *c;
@@ -81,7 +81,8 @@ static void refuse_step(const way *w, const mps__key *parent, const char *name)
         mps__case_fail(w->c, w->at, "unknown path '%s': no key '%s'", w->path, name);
 }
 
-/* Element of a list by its number, from 1, or by the name of a one-key map; a new one where `add` is not NULL. */
+/* Find an element of a list by its number, from 1, or by the name of a one-key map; create it if
+ * `add` is not NULL. */
 static tree_node *list_step(const way *w, tree_node *list, const char *name)
 {
     tree_node *found = mps__tree_find(list, name);
@@ -97,7 +98,7 @@ static tree_node *list_step(const way *w, tree_node *list, const char *name)
     return n->kind == TREE_MAP && n->count == 1 ? n->first : n;
 }
 
-/* A map at the place of a set, for a key that is not there. */
+/* Create a map for a key of a `set` that does not exist yet. */
 static tree_node *new_map(const way *w, const char *key)
 {
     tree_node *map = mps__tree_new(w->c, TREE_MAP, w->at);
@@ -118,7 +119,7 @@ static tree_node *add_item(const way *w, tree_node *list, tree_node *value)
 static void set_at(const way *w, tree_node *node, const mps__key *entry, const char *rest,
                    tree_node *value);
 
-/* One step of a path into a list. */
+/* Set a value at a path that continues in a list. */
 static void set_in_list(const way *w, tree_node *list, const mps__key *entry, const char *name,
                         const char *rest, tree_node *value)
 {

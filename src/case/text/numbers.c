@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers with units. */
+/* Reads numbers with units. */
 #include "units.h"
 #include <math.h>
 #include <stdio.h>
@@ -12,7 +12,7 @@ enum { DIGITS = 60, SHOWN = 60 };
 /* The text of a number: digits with at most one point, and an exponent. */
 typedef struct number_text {
     const char *start;
-    size_t length, mantissa; /* of it all, and of what stands before the exponent */
+    size_t length, mantissa; /* of the whole text, and of the part before the exponent */
     int32_t exponent;
 } number_text;
 
@@ -56,7 +56,7 @@ static bool find_number(const char *start, number_text *n)
     return n->mantissa < DIGITS;
 }
 
-/* Its value times 10^tens, rounded once. */
+/* The value times 10^tens, rounded once. */
 static double number_value(const number_text *n, int32_t tens)
 {
     char text[DIGITS + 40];
@@ -76,7 +76,7 @@ static bool refuse(mps__numbers *n, const char *why, const char *what, size_t le
     return false;
 }
 
-/* What stands where a number is wanted. */
+/* Refuse a text where a number is expected. */
 static bool refuse_text(mps__numbers *n, const char *at)
 {
     char kinds[120];
@@ -85,7 +85,8 @@ static bool refuse_text(mps__numbers *n, const char *at)
     return false;
 }
 
-/* The unit at the end of an example, "[0 0 m, 2 30 mm]": of several the longest, "mPa s"; NULL: there is none. */
+/* The unit at the end of an example, "[0 0 m, 2 30 mm]": the longest that matches, "mPa s"; NULL:
+ * none. */
 static const mps__unit *unit_of(const char *example, uint64_t kinds)
 {
     const mps__unit *found = NULL, *u;
@@ -100,7 +101,7 @@ static const mps__unit *unit_of(const char *example, uint64_t kinds)
     return found;
 }
 
-/* An example of a unit that is allowed, "60 s' or '60 T1": the usual one, and that of `like`. */
+/* Add an example of an allowed unit, "60 s' or '60 T1": the usual unit, and that of `like`. */
 static void add_example(mps__numbers *n, const char *number, int length)
 {
     const size_t used = strlen(n->why);
@@ -161,7 +162,7 @@ static bool refuse_unit(mps__numbers *n, const mps__unit *u, const char *unit, i
     return false;
 }
 
-/* Length of the unit at `at`: up to the next number, without blanks at its end. */
+/* Length of the unit at `at`: up to the next number, without trailing blanks. */
 static size_t unit_length(const char *at)
 {
     size_t length = 0, end = 0;
@@ -172,11 +173,11 @@ static size_t unit_length(const char *at)
     return end;
 }
 
-/* Numbers first .. last - 1, whose text begins at `at`, get this unit; NULL: none. */
+/* Convert numbers first .. last - 1, whose text begins at `at`, from this unit; NULL: no unit. */
 static bool convert(mps__numbers *n, const char *at, int32_t first, int32_t last,
                     const mps__unit *u)
 {
-    /* where no length is wanted, 40 % is 0.4 */
+    /* where a length is not allowed, 40 % is 0.4 */
     const bool is_share = u && u->scale == SCALE_WHOLE && !(n->kinds & UNIT_LENGTH);
     for (int32_t k = first; k < last; k++) {
         number_text text;
@@ -198,7 +199,7 @@ static bool convert(mps__numbers *n, const char *at, int32_t first, int32_t last
     return true;
 }
 
-/* What stands right behind a number and makes it none. */
+/* Whether the character after a number makes it invalid. */
 static bool follows_badly(mps__numbers *n, const number_text *number, const char *at)
 {
     const char *why = NULL;
@@ -209,7 +210,7 @@ static bool follows_badly(mps__numbers *n, const number_text *number, const char
     return why && !refuse(n, why, number->start, number->length + strcspn(at, " \n\t\r"));
 }
 
-/* The unit at `at`, for the numbers from `first` on, whose text begins at `pending`. */
+/* Read the unit at `at`, for the numbers from `first` on, whose text begins at `pending`. */
 static bool take_unit(mps__numbers *n, const char *pending, int32_t first, const char **at)
 {
     const size_t length = unit_length(*at);
@@ -228,7 +229,7 @@ static bool refuse_count(mps__numbers *n)
 bool mps__numbers_read(mps__numbers *n)
 {
     const char *at = n->text, *pending = at;
-    int32_t first = 0; /* number without a unit so far */
+    int32_t first = 0; /* first number without a unit so far */
     bool done = true;
     n->count = 0;
     n->found = n->kinds;

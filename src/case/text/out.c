@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Text into a buffer. */
+/* Formats text into a buffer. */
 #include "out.h"
 #include <stdarg.h>
 #include <stdio.h>

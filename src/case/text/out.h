@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Text into a buffer of the caller, as snprintf() does: what has no room is counted. */
+/* Formats text into a buffer of the caller as snprintf() does: what exceeds the buffer is
+ * counted. */
 #ifndef MPS_CASE_OUT_H
 #define MPS_CASE_OUT_H
 
@@ -10,7 +11,7 @@ typedef struct mps__out {
     size_t size, length;
 } mps__out;
 
-/* An empty text. @param buffer  [size], NULL: count only */
+/* Begin an empty text. @param buffer  [size], NULL: count only */
 mps__out mps__out_begin(char *buffer, size_t size);
 void mps__out_put(mps__out *o, const char *format, ...);
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From YAML to a tree, by the events of libyaml. What case files do not use is refused: anchors, tags, merge keys, several documents. */
+/* Builds the tree from the YAML events of libyaml. Refuses what case files do not use: anchors,
+ * tags, merge keys, several documents. */
 #include "tree.h"
 #include <stdio.h>
 #include <string.h>
@@ -9,9 +10,9 @@ typedef struct parse {
     mps_case *c;
     int32_t source;
     int32_t depth;
-    tree_node *at; /* list or map that is open */
+    tree_node *at; /* the open list or map */
     tree_node *root;
-    const char *key; /* of the value to come, in a map */
+    const char *key; /* in a map: key of the next value */
     mps__place key_place;
     int32_t documents;
     bool stop;
@@ -24,7 +25,7 @@ static mps__place place_of(const parse *p, yaml_mark_t mark)
                         (int32_t)mark.column + 1};
 }
 
-/* ---- before libyaml: bytes that are no text --------------------------------------------------- */
+/* ---- before libyaml: invalid bytes ----------------------------------------------------------- */
 
 static bool refuse_byte(parse *p, size_t at)
 {
@@ -44,7 +45,7 @@ static bool refuse_byte(parse *p, size_t at)
     return false;
 }
 
-/* Bytes of the character at `at` in UTF-8; 0: it is none. */
+/* Number of bytes of the UTF-8 character at `at`; 0: invalid. */
 static size_t character(const unsigned char *at, size_t left)
 {
     if (at[0] < 0x80) return 1;
@@ -71,7 +72,7 @@ static bool is_text(parse *p)
     return true;
 }
 
-/* ---- events ----------------------------------------------------------------------------------- */
+/* ---- events ---------------------------------------------------------------------------------- */
 
 static void refuse_syntax(parse *p, const yaml_parser_t *y)
 {
@@ -104,7 +105,7 @@ static void refuse_extra(parse *p, yaml_mark_t mark, const char *what)
     mps__case_fail(p->c, place_of(p, mark), "%s; case files have none", what);
 }
 
-/* Put a value where it belongs: into the open list, under the key, or at the root. */
+/* Append a value to the open list, to the open map under the key, or make it the root. */
 static void place_value(parse *p, tree_node *value)
 {
     if (!value) {
@@ -129,7 +130,7 @@ static void place_value(parse *p, tree_node *value)
         if (before) {
             mps__case_say_key(p->c, value, "key '%s' is given twice; first in line %d", value->key,
                               (int)before->key_line);
-            value->parent = p->at; /* what is in it is still read */
+            value->parent = p->at; /* its elements are still to be read */
             return;
         }
         if (p->at->count == TREE_KEYS) {

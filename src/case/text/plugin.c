@@ -36,7 +36,7 @@ static mps_status add(host *h, int32_t kind, const char *name, const char *help,
     return MPS_OK;
 }
 
-/* A table that libmps has taken is an item; why it did not is in its text. */
+/* Record a table that libmps accepted as an item; if it refused the table, keep its error text. */
 static mps_status added(host *h, mps_status status, int32_t kind, const char *name,
                         const char *help)
 {
@@ -96,7 +96,8 @@ static bool check_setting(const mps_drive_ops *ops, int32_t k, plugin_why *why)
     return true;
 }
 
-/* Settings are named by the slot of a model or the name of a load: they must differ. */
+/* A setting is named by the slot of a model or by the name of a load, so these names must
+ * differ. */
 static bool is_slot(const mps_sim *sim, const char *name)
 {
     const size_t length = strlen(name);

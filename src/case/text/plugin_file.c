@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The shared library of a plug-in: what kind of file it is, its checksum, its function. */
+/* The shared library of a plug-in: kind of file, checksum, function. */
 #include "plugin_file.h"
 #include <dlfcn.h>
 #include <elf.h>
@@ -36,7 +36,7 @@ static const char *machine_name(int machine, char *number, size_t size)
     return number;
 }
 
-/* Type, machine, class and order of bytes stand at the same places of all ELF headers. */
+/* Type, machine, class and byte order are at the same offsets in all ELF headers. */
 typedef struct elf_kind {
     unsigned char ident[EI_NIDENT];
     uint16_t type, machine;
@@ -48,7 +48,7 @@ static bool read_kind(FILE *file, elf_kind *kind)
            memcmp(kind->ident, ELFMAG, SELFMAG) == 0;
 }
 
-/* Of this program; machine 0: not known. */
+/* The kind of this program; machine 0: not known. */
 static elf_kind own_kind(void)
 {
     elf_kind own = {.machine = 0};
@@ -84,7 +84,8 @@ static bool check_kind(FILE *file, plugin_why *why)
     return true;
 }
 
-/* The loader of the system maps all segments without a look at the length of the file: one that is cut short ends the program by SIGBUS. */
+/* The dynamic loader maps all segments without checking the length of the file: a truncated file
+ * ends the program by SIGBUS. */
 static bool is_whole(FILE *file, uint64_t size)
 {
     ElfW(Ehdr) head;
@@ -99,7 +100,7 @@ static bool is_whole(FILE *file, uint64_t size)
     return true;
 }
 
-/* Kind and checksum. Only regular files are opened: a FIFO would block. */
+/* Determine kind and checksum. Only regular files are opened: a FIFO would block. */
 static bool look_at(mps_plugin_file *p, plugin_why *why)
 {
     struct stat s;
@@ -120,7 +121,7 @@ static bool look_at(mps_plugin_file *p, plugin_why *why)
 
 /* ---- loading ---- */
 
-/* A plug-in of a libmps beside the one of this program would get handles of the other one. */
+/* A plug-in linked to a second copy of libmps would receive handles of the first one. */
 static bool same_library(const mps_plugin_file *p, plugin_why *why)
 {
     const char *(*version)(int *, int *, int *);
@@ -152,7 +153,8 @@ bool mps__plugin_load(mps_plugin_file *p, const char *path, plugin_why *why)
         return mps__plugin_fail(why, MPS_E_IO, "it cannot be read: %s", strerror(errno));
     if (!look_at(p, why) || !open_library(p, why) || !same_library(p, why)) return false;
     void *symbol = dlsym(p->handle, "mps_plugin");
-    memcpy(&p->begin, &symbol, sizeof p->begin); /* ISO C has no cast from void * to a function */
+    /* ISO C has no cast from void * to a function pointer */
+    memcpy(&p->begin, &symbol, sizeof p->begin);
     if (symbol) return true;
     return mps__plugin_fail(why, MPS_E_PLUGIN,
                             "it has no function mps_plugin(), which <mps/plugin.h> declares");

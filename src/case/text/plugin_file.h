@@ -17,7 +17,7 @@ typedef struct plugin_item {
 } plugin_item;
 
 struct mps_plugin_file {
-    void *handle; /* of dlopen() */
+    void *handle; /* from dlopen() */
     mps_status (*begin)(mps_registry *r);
     char path[PATH_MAX];
     char sha256[SHA256_TEXT];
@@ -26,17 +26,18 @@ struct mps_plugin_file {
     plugin_item item[PLUGIN_ITEMS];
 };
 
-/* Why a call failed; the first reason stays. */
+/* Why a call failed; the first reason is kept. */
 typedef struct plugin_why {
-    mps_status status; /* MPS_OK: it did not */
+    mps_status status; /* MPS_OK: no failure */
     char text[PLUGIN_WHY];
 } plugin_why;
 
-/* Note why. @return false */
+/* Record a failure. @return false */
 bool mps__plugin_fail(plugin_why *why, mps_status status, const char *format, ...);
-/* Look at a file and load it: path, checksum, handle and function of the plug-in. */
+/* Inspect a file and load it: path, checksum, handle and function of the plug-in. */
 bool mps__plugin_load(mps_plugin_file *p, const char *path, plugin_why *why);
-/* Call the function of the plug-in: tables go to `sim`, and what they are into the plug-in where `list` is set. */
+/* Call the function of the plug-in: it registers its tables on `sim`, and its items in the plug-in
+ * if `list` is set. */
 bool mps__plugin_call(mps_plugin_file *p, mps_sim *sim, bool list, plugin_why *why);
 
 #endif

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `plugins` of a case: where their files are, which of them may be loaded, what they register. */
+/* `plugins` of a case: locates the files, decides which may be loaded, and loads them. */
 #include "plugin_file.h"
 #include "tree.h"
 #include <stdio.h>
@@ -16,9 +16,9 @@ static const char *base_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* ---- one form --------------------------------------------------------------------------------- */
+/* ---- one form -------------------------------------------------------------------------------- */
 
-/* A text becomes a map with `file`. */
+/* Convert a text to a map with `file`. */
 static void put_item(mps_case *c, tree_node *list, tree_node *item)
 {
     const mps__place at = {item->source, item->line, item->column};
@@ -37,7 +37,7 @@ static void put_item(mps_case *c, tree_node *list, tree_node *item)
     mps__tree_append(list, map);
 }
 
-/* The same plug-in of a program takes the place of one of the case. */
+/* A plug-in that the program names replaces the same plug-in of the case. */
 static void put_file(mps_case *c, tree_node *list, const char *name)
 {
     const mps__source s = {.name = mps__case_print(c, "--plugin %.200s", name),
@@ -47,7 +47,7 @@ static void put_file(mps_case *c, tree_node *list, const char *name)
     const int32_t source = s.name && s.folder ? mps__source_add(c, &s) : -1;
     tree_node *text = source < 0 ? NULL : mps__tree_new(c, TREE_TEXT, (mps__place){source, 1, 1});
     if (!text) return;
-    /* of a program a name without '/' is one in the present folder */
+    /* a name without '/' that the program passes is in the current folder */
     text->text = mps__case_copy(c, name, strlen(name));
     for (tree_node *n = list->first, *next; text->text && n; n = next) {
         const tree_node *file = n->kind == TREE_MAP ? mps__tree_find(n, "file") : NULL;
@@ -82,7 +82,7 @@ void mps__plugins_put(mps_case *c, tree_node *root, int32_t count, const char *c
     for (int32_t k = 0; k < count; k++) put_file(c, list, files[k]);
 }
 
-/* ---- where a file is -------------------------------------------------------------------------- */
+/* ---- where a file is ------------------------------------------------------------------------- */
 
 static const char *in_folder(mps_case *c, const char *folder, size_t length, const char *name)
 {
@@ -91,7 +91,8 @@ static const char *in_folder(mps_case *c, const char *folder, size_t length, con
     return path && access(path, F_OK) == 0 ? path : NULL;
 }
 
-/* In the folder of the file that names it; a name without '/' then in those of MPS_PLUGIN_PATH. NULL: it is nowhere */
+/* Search the folder of the file that names it; a name without '/' then in those of MPS_PLUGIN_PATH.
+ * NULL: not found */
 static const char *find_file(mps_case *c, const tree_node *file)
 {
     const char *folder = c->source[file->source].folder, *path = NULL,
@@ -121,9 +122,9 @@ static void refuse_missing(mps_case *c, const tree_node *file)
                       strchr(file->text, '/') || !path || !*path ? "" : "'");
 }
 
-/* ---- loading ---------------------------------------------------------------------------------- */
+/* ---- loading --------------------------------------------------------------------------------- */
 
-/* A case of a page or from memory may come from anywhere. */
+/* A case of a page or from memory is not trusted. */
 static bool is_allowed(mps_case *c, const tree_node *file)
 {
     const mps__source *s = &c->source[file->source];
@@ -159,10 +160,11 @@ static void load_item(mps_case *c, tree_node *item)
     mps_plugin_file *p = NULL;
     tree_node *file = item->kind == TREE_MAP ? mps__tree_find(item, "file") : NULL,
               *sum = file ? mps__tree_find(item, "sha256") : NULL;
+    /* there is a message already */
     if (!file || file->kind != TREE_TEXT || !file->text[0] || (sum && sum->kind != TREE_TEXT))
-        return; /* it has a message */
+        return;
     const char *path = find_file(c, file);
-    if (path) file->text = path; /* the same in any folder */
+    if (path) file->text = path; /* absolute, so that it is valid in any folder */
     if (c->load == MPS_CASE_PLUGINS_NONE || c->no_memory || !is_allowed(c, file)) return;
     if (!path) {
         refuse_missing(c, file);
@@ -205,7 +207,7 @@ const mps_plugin_file *mps_case_plugin(const mps_case *c, int32_t index)
     return c && index >= 0 && index < c->plugins ? c->plugin[index].file : NULL;
 }
 
-/* ---- what they register ----------------------------------------------------------------------- */
+/* ---- registered items ------------------------------------------------------------------------ */
 
 /* An earlier plug-in with an item of the same name. */
 static const mps_plugin_file *owner_of(const mps_case *c, int32_t which, const char **name)

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The unit of SI of these kinds, "" where it has none. */
+/* The SI unit of these kinds, "" if there is none. */
 static const char *si_unit(uint64_t kinds)
 {
     const mps__unit *u;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reading values of a checked case. */
+/* Reads values of a checked case. */
 #include "read.h"
 #include <math.h>
 #include <string.h>
@@ -17,7 +17,8 @@ static tree_node *find(const tree_node *map, const char *key)
     return node;
 }
 
-/* Where a case needs its first period before it has liquid; dp and the height of the tank are known wherever they are read. */
+/* Refuse a value in T1 where the case needs it before the liquid, which determines T1, is filled;
+ * dp and the height of the tank are always known by then. */
 static void refuse_unknown(mps_case *c, const tree_node *node)
 {
     char path[PATH_ROOM];
@@ -127,7 +128,7 @@ static void mark(tree_node *node)
     for (tree_node *n = node->first; n; n = n->next) mark(n);
 }
 
-/* The node as its parent has it, because reading does not change what a case says. */
+/* The mark is set through the parent: reading does not change the contents of a case. */
 void mps__read_all(const tree_node *node)
 {
     if (!node || !node->parent) return;
@@ -140,7 +141,7 @@ void mps__case_scale_set(mps_case *c, read_scale scale)
     c->scale = scale;
 }
 
-/* A list whose texts are one value. */
+/* Whether the texts of a list form one value. */
 static bool is_value(const tree_node *node)
 {
     return node->kind == TREE_TEXT || node->count == 0 ||

@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- the list --------------------------------------------------------------------------------- */
+/* ---- the list -------------------------------------------------------------------------------- */
 
 static const char *shape_name(key_shape shape)
 {
@@ -69,7 +69,7 @@ mps_status mps_case_key_get(int32_t index, mps_case_key *key)
     return MPS_OK;
 }
 
-/* ---- the schema ------------------------------------------------------------------------------- */
+/* ---- the schema ------------------------------------------------------------------------------ */
 
 #define NUMBER "[+-]?([0-9]+\\\\.?[0-9]*|\\\\.[0-9]+)([eE][+-]?[0-9]+)?"
 #define ZERO   "[+-]?0(\\\\.0*)?"
@@ -77,7 +77,7 @@ mps_status mps_case_key_get(int32_t index, mps_case_key *key)
 
 static void put_key(mps__out *o, const mps__key *key, bool strict);
 
-/* A text of JSON. */
+/* Write a JSON string. */
 static void put_string(mps__out *o, const char *text, size_t length)
 {
     mps__out_put(o, "\"");
@@ -86,7 +86,7 @@ static void put_string(mps__out *o, const char *text, size_t length)
     mps__out_put(o, "\"");
 }
 
-/* Units of kinds as alternatives of a pattern. */
+/* Write units of kinds as alternatives of a pattern. */
 static void put_units(mps__out *o, uint64_t kinds)
 {
     const mps__unit *u;
@@ -100,7 +100,7 @@ static void put_units(mps__out *o, uint64_t kinds)
     mps__out_put(o, ")");
 }
 
-/* A bound of a range without a unit, for numbers of JSON. */
+/* Write a bound of a range without a unit, for JSON numbers. */
 static void put_bounds(mps__out *o, const char *range)
 {
     double low, high;
@@ -165,7 +165,7 @@ static void put_words(mps__out *o, const char *words)
     mps__out_put(o, "]");
 }
 
-/* Keys below a map: the names of the table, or those of the user. */
+/* Write the keys below a map: names of the table, or those of the user. */
 static void put_properties(mps__out *o, const mps__key *parent, bool strict)
 {
     const char *comma = "", *word;
@@ -177,7 +177,8 @@ static void put_properties(mps__out *o, const mps__key *parent, bool strict)
         if (!mps__key_is_below(parent, key)) continue;
         const char *last = mps__key_last(key);
         for (int32_t i = 0; (length = mps__words_get(last, i, &word)) > 0; i++) {
-            /* of motion.surge|sway and motion.surge|sway|roll, the key is put where its parent is */
+            /* a key of motion.surge|sway is written with its parent, not below
+             * motion.surge|sway|roll */
             mps__out_put(o, "%s", comma);
             if (*word == '*')
                 mps__out_put(o, mps__key_dotted(parent) ? "\"^[a-z_]+\\\\.[a-z0-9_]+$\""
@@ -206,7 +207,7 @@ static void put_required(mps__out *o, const mps__key *parent)
     mps__out_put(o, "]");
 }
 
-/* A further choice: none of the keys. */
+/* Write a further alternative: none of the keys. */
 static void put_none(mps__out *o, const char *keys)
 {
     const char *word, *comma = "";

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Memory is taken in blocks, and given back with the case. */
+/* Memory is allocated in blocks and freed with the case. */
 struct mps__block_of_case {
     mps__block_of_case *before;
     size_t size, used;
@@ -79,7 +79,7 @@ void mps__case_go_on(mps_case *c, bool others)
 
 /* ---- messages ------------------------------------------------------------------------------- */
 
-/* Line number `line` of a source, copied; NULL: there is none. */
+/* Line number `line` of a source, copied; NULL: not found. */
 static const char *source_line(mps_case *c, const mps__source *s, int32_t line)
 {
     if (s->option || line < 1) return NULL;
@@ -98,7 +98,7 @@ static int32_t compare(mps__place a, int32_t source, const mps_case_message *m)
     return a.column < m->column ? -1 : a.column > m->column;
 }
 
-/* Free the place of a message behind all that come before it. @return its index, or -1 */
+/* Insert an empty message in the order of positions. @return its index, or -1 */
 static int32_t make_room(mps_case *c, mps__place at)
 {
     int32_t k = c->messages;
@@ -120,7 +120,7 @@ void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *form
     vsnprintf(text, sizeof text, format, list);
     if (!warning) c->errors++;
     if (s->option) at.line = at.column = 0;
-    for (int32_t i = 0; i < c->messages; i++) /* the same value is looked at more than once */
+    for (int32_t i = 0; i < c->messages; i++) /* the same value is checked more than once */
         if (compare(at, c->message_source[i], &c->message[i]) == 0 &&
             strcmp(c->message[i].text, text) == 0)
             return;
@@ -181,7 +181,7 @@ mps_status mps_case_message_get(const mps_case *c, int32_t index, mps_case_messa
 
 /* ---- messages as text ------------------------------------------------------------------------ */
 
-/* Bytes of the first characters of a text in UTF-8. */
+/* Number of bytes of the first characters of a UTF-8 text. */
 static size_t characters(const char *text, int32_t count)
 {
     size_t at = 0;
@@ -192,7 +192,7 @@ static size_t characters(const char *text, int32_t count)
     return at;
 }
 
-/* The line, or the part of a long one that is about the column, and a caret below. */
+/* Write the line, or the part of a long line around the column, with a caret below it. */
 static void put_source(mps__out *o, const mps_case_message *m)
 {
     const int32_t first = m->column > SOURCE_ROOM / 2 ? m->column - SOURCE_ROOM / 2 : 0;

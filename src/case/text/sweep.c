@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `sweep`: paths and the values that they take. A value is kept as a text, with its unit. */
+/* `sweep`: paths and their values. A value is kept as a text, with its unit. */
 #include "tree.h"
 #include "units.h"
 #include <math.h>
@@ -15,7 +15,7 @@ typedef struct steps {
     char unit[40];
 } steps;
 
-/* The text without the words "to" and "step"; false: it has not both. */
+/* Remove the words "to" and "step"; false: the text does not have both. */
 static bool without_words(const char *text, char *numbers, size_t size)
 {
     const char *to = strstr(text, " to "), *step = strstr(text, " step ");
@@ -24,7 +24,7 @@ static bool without_words(const char *text, char *numbers, size_t size)
                             (int)(step - to - 4), to + 4, step + 6) < size;
 }
 
-/* Numbers a, b, c as they are written: all have the unit at the end. */
+/* Read the numbers a, b, c as written: all have the unit at the end. */
 static bool read_steps(const char *text, steps *s)
 {
     char numbers[VALUE_ROOM], number[VALUE_ROOM];
@@ -55,7 +55,7 @@ static bool has_steps(const tree_node *node)
     return node->kind == TREE_TEXT && strstr(node->text, " to ");
 }
 
-/* Value number `index` of a path. @return false: there is none, or no room */
+/* Value number `index` of a path. @return false: there is none, or the buffer is too small */
 static bool get_value(const tree_node *node, bool numbers, int32_t index, char *out, size_t size)
 {
     steps s = {0};
@@ -86,7 +86,7 @@ static int32_t count_values(const tree_node *node)
     return count;
 }
 
-/* Numbers are numbers up to the end of the text. */
+/* Whether the text has numbers up to its end. */
 static bool reads_as_numbers(mps_case *c, const tree_node *node, const mps__key *key)
 {
     double value[PATH_VALUES];
@@ -101,13 +101,14 @@ static bool reads_as_numbers(mps_case *c, const tree_node *node, const mps__key 
     return false;
 }
 
-/* Not plug-ins: a sweep gives its values to the program, which takes them for those of its user. */
+/* A sweep must not set plug-ins: it passes its values through the program, which would trust them
+ * as its user's. */
 static bool is_plugin(const char *path)
 {
     return strncmp(path, "plugins", 7) == 0;
 }
 
-/* Check each value as if it stood at its path. */
+/* Check each value as if it were at its path. */
 static void check_values(mps_case *c, const tree_node *node, const mps__key *key, int32_t count)
 {
     char value[VALUE_ROOM];
@@ -156,7 +157,7 @@ void mps__check_sweep(mps_case *c, tree_node *root)
         mps__case_say_key(c, sweep, "sweep: %.0f runs, %d at most", runs, SWEEP_RUNS);
 }
 
-/* ---- calls ------------------------------------------------------------------------------------ */
+/* ---- calls ----------------------------------------------------------------------------------- */
 
 static const tree_node *sweep_of(const mps_case *c)
 {
@@ -171,7 +172,7 @@ int64_t mps_case_runs(const mps_case *c)
     return runs;
 }
 
-/* A sweep that was read has values in each list. */
+/* A parsed sweep has values in each list. */
 static int64_t at_least_one(int32_t count)
 {
     return count > 0 ? count : 1;

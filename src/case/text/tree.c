@@ -73,7 +73,8 @@ static int place_of(const tree_node *node)
     return place;
 }
 
-/* Whether a node is named in paths: maps of a list of one-key maps are not, their keys are. */
+/* Whether a node has a name in paths: in a list of one-key maps the keys have one, the maps do
+ * not. */
 static bool has_step(const tree_node *node)
 {
     if (!node->parent) return false;

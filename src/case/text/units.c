@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of units, and what may be asked of it. */
+/* The table of units, and queries of it. */
 #include "units.h"
 #include <mps/case.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #define PI 3.14159265358979323846
 
-/* The first unit of a kind is the one of examples. */
+/* The first unit of a kind is used in examples. */
 /* clang-format off */
 static const mps__unit units[] = {
     {"m", UNIT_LENGTH, 0, 1, 1, SCALE_NONE}, {"cm", UNIT_LENGTH, -2, 1, 1, SCALE_NONE}, {"mm", UNIT_LENGTH, -3, 1, 1, SCALE_NONE},
@@ -70,7 +70,7 @@ const mps__unit *mps__unit_get(int32_t index)
     return index >= 0 && index < UNITS ? &units[index] : NULL;
 }
 
-/* Whether the name is that of the unit, where "m/s^2" is "m/s2" and several blanks are one. */
+/* Whether the name is that of the unit; "m/s^2" equals "m/s2", and several blanks equal one. */
 static bool same(const char *name, size_t length, const char *unit)
 {
     size_t i = 0;
@@ -123,7 +123,7 @@ void mps__kinds_units(uint64_t kinds, char *out, size_t size)
     }
 }
 
-/* One bound of a range, "> 0", ">= 1", "<= 5"; `at` moves behind it. */
+/* Check one bound of a range, "> 0", ">= 1", "<= 5"; `at` moves past it. */
 static bool bound_holds(const char **at, double value, bool sign_only)
 {
     const bool above = **at == '>', closed = (*at)[1] == '=';

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Units: numbers with units as texts, in SI. */
+/* Converts texts of numbers with units to SI. */
 #ifndef MPS_CASE_UNITS_H
 #define MPS_CASE_UNITS_H
 
@@ -7,7 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Kinds of quantities, bits. A unit may serve several: N/m is one of tension and of stiffness. */
+/* Kinds of quantities, as bits. A unit may have several kinds: N/m is one of tension and of
+ * stiffness. */
 #define UNIT_NONE      (UINT64_C(1) << 0) /* a number without a unit */
 #define UNIT_LENGTH    (UINT64_C(1) << 1)
 #define UNIT_TIME      (UINT64_C(1) << 2)
@@ -32,7 +33,7 @@
 #define UNIT_VOLUME    (UINT64_C(1) << 21)
 #define UNIT_AREA      (UINT64_C(1) << 22)
 #define UNIT_DAMPING   (UINT64_C(1) << 23)
-/* of turns */
+/* rotational */
 #define UNIT_TURN_STIFFNESS (UINT64_C(1) << 24)
 #define UNIT_TURN_DAMPING   (UINT64_C(1) << 25)
 #define UNIT_KINDS          26
@@ -45,44 +46,47 @@ typedef enum unit_scale { SCALE_NONE, SCALE_DP, SCALE_T1, SCALE_WHOLE } unit_sca
 typedef struct mps__unit {
     const char *name;
     uint64_t kinds;
-    int32_t tens;       /* a power of ten, which makes no error of rounding */
+    int32_t tens;       /* a power of ten, free of rounding errors */
     double times, over; /* SI: number * 10^tens * times / over */
     unit_scale scale;
 } mps__unit;
 
-/* Numbers of a text. */
+/* A text of numbers to read, and the results. */
 typedef struct mps__numbers {
     const char *text;
     uint64_t kinds;
     double scale[4]; /* by unit_scale; NAN: not known; [SCALE_NONE] is 1 */
-    int32_t most;    /* numbers in `out` */
+    int32_t most;    /* capacity of `out` */
     double *out;
     const char *like; /* an example of a value, whose unit a message proposes; NULL: none */
     /* results */
     int32_t count;
-    uint64_t found;      /* kinds that the units which are there serve; all of `kinds` if none */
+    uint64_t found;      /* kinds that all units of the text have; all of `kinds` without a unit */
     bool relative;       /* a unit is dp, T1 or % */
     const char *missing; /* the unit whose scale is not known: its numbers are NAN; or NULL */
-    char why[600];       /* what is wrong */
+    char why[600];       /* the error */
 } mps__numbers;
 
-/* Read a list of numbers, "0 50 mm". Each number without a unit takes that of the next that has one. 0 needs none.
- * @return false: `why` tells what is wrong */
+/* Read a list of numbers, "0 50 mm". A number without a unit has the unit of the next number that
+ * has one. 0 needs none.
+ * @return false: `why` is the error */
 bool mps__numbers_read(mps__numbers *n);
-/* Number `index` of a list with its unit, "50 mm", as a text. @return false: there is none, or no room */
+/* Number `index` of a list with its unit, "50 mm", as a text.
+ * @return false: there is none, or the buffer is too small */
 bool mps__numbers_split(const char *text, int32_t index, char *buffer, size_t size);
-/* A unit by name, with blanks as written; NULL: unknown. */
+/* Find a unit by name, with blanks as written; NULL: unknown. */
 const mps__unit *mps__unit_find(const char *name, size_t length);
-/* One of this unit in SI; of dp, T1: 1. */
+/* The SI value of this unit; of dp and T1: 1. */
 double mps__unit_value(const mps__unit *unit);
-/* Unit number `index`, NULL behind the last. */
+/* Unit number `index`, NULL after the last. */
 const mps__unit *mps__unit_get(int32_t index);
 /* "a length", "a time or a number" ... */
 void mps__kinds_name(uint64_t kinds, char *out, size_t size);
 /* All units of kinds, "m, cm, mm, km, dp". */
 void mps__kinds_units(uint64_t kinds, char *out, size_t size);
-/* Whether a value lies in a range, "> 0", ">= 0", "1 .. 16", "> 0, <= 1". Numbers of ranges may have units.
- * @param sign_only  the value has the right sign alone; bounds other than 0 say nothing */
+/* Whether a value is in a range, "> 0", ">= 0", "1 .. 16", "> 0, <= 1". Numbers of ranges may have
+ * units.
+ * @param sign_only  check the sign of the value alone: bounds other than 0 are ignored */
 bool mps__range_holds(const char *range, double value, bool sign_only);
 
 #endif

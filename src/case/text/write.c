@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tree as YAML that reads back to the same tree. */
+/* Writes a tree as YAML that parses to the same tree. */
 #include "tree.h"
 #include <stdio.h>
 #include <string.h>
 
-/* A text that grows; without a buffer it is only measured. */
+/* A growing text; without a buffer only its length is counted. */
 typedef struct output {
     mps_case *c;
     char *text;
@@ -39,8 +39,8 @@ static bool is_plain(const char *text)
     return strncmp(text, "...", 3) != 0;
 }
 
-/* Characters beyond ASCII that YAML reads as line breaks, as a mark, or refuses; "" where it is
- * none. */
+/* The escape of a character beyond ASCII that YAML treats as a line break or a byte-order mark, or
+ * refuses; "" for any other. */
 static const char *escape_of(const char *text, size_t *length)
 {
     static const char *const known[][2] = {{"\xe2\x80\xa8", "\\L"},
@@ -96,7 +96,7 @@ static void put_scalar(output *o, const char *text)
         put_quoted(o, text);
 }
 
-/* The names of files are absolute, so that the text means the same in any folder. */
+/* File names are written absolute, so that the text is valid in any folder. */
 static void put_value(output *o, const tree_node *node)
 {
     const bool file = node->entry && node->entry->shape == SHAPE_FILE;
