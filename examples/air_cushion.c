@@ -1,17 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A slug of water on a cushion of compressible air: w^2 = rho_a c^2/(rho_w L H), and at rest the cushion is shorter by
- * rho_w g L/(rho_a c^2) of its height H. The models of several phases know no free surface, so that the slug stands in the middle of a closed
- * tube between two columns of 2 H, which together are as stiff as one of H below it. It is let go where the air has no pressure.
+/* A slug of water on a cushion of compressible air: w^2 = rho_a c^2/(rho_w L H); at rest the
+ * cushion is compressed by rho_w g L/(rho_a c^2) of its height H. Models of several phases have no
+ * free surface. Therefore the slug is in the middle of a closed tube between two columns of 2 H,
+ * which together are as stiff as one of H below it. It is released where the air has no pressure.
  *
- * Water above air falls through it. To keep it up the slug is as tough as syrup and slides along the walls without friction: its motion as a
- * whole is that of water, only what bends its ends takes several times as long. */
+ * Water above air falls through it. To prevent this, the slug has a high viscosity and slides along
+ * the walls without friction: its rigid motion is that of water, only the deformation of its ends
+ * is several times slower. */
 #include "driver/tank.h"
 #include <math.h>
 
 static const double SLUG = 0.2, CUSHION = 0.2, WATER = 1000, TOUGH = 50;
 static const double SPACINGS = 20; /* width of the tube */
 
-/* The slug is half a spacing below the middle: the rows at its ends lie half a spacing inside it, those at the ends of the tube a whole one. */
+/* The slug is half a spacing below the middle: the rows at its ends are half a spacing inside it,
+ * the rows at the ends of the tube one spacing. */
 static void build(driver *d)
 {
     const double dp = d->dp, column = dp * (double)lround(2 * CUSHION / dp),

@@ -1,18 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A lying cylinder with elliptical ends, half full, in surge near its first natural frequency; or a tank from an STL file. */
+/* A lying cylinder with elliptical ends, half full, in surge near its first natural frequency; or a
+ * tank from an STL file. */
 #include "driver/tank.h"
 #include <math.h>
 #include <string.h>
 
-/* The ends are half as deep as the radius, as dished heads usually are. */
+/* The depth of the ends is half the radius, as usual for dished heads. */
 static const double RADIUS = 0.25, STRAIGHT = 0.6, END = 0.125, FILL = 0.5, OMEGA = 4.8;
 
-/* The tank's box and the level of the water [m]. */
+/* Bounding box of the tank and level of the water [m]. */
 typedef struct cylinder_case {
     double lo[3], hi[3], level;
 } cylinder_case;
 
-/* Distance to the shell, > 0 inside; the lowest point is at y = 0, the ends at x = 0 and x = STRAIGHT + 2 END. */
+/* Distance to the shell, > 0 inside; the lowest point is at y = 0, the ends at x = 0 and
+ * x = STRAIGHT + 2 END. */
 static double shell(void *user, const double *x)
 {
     const double y = x[1] - RADIUS, r = sqrt(y * y + x[2] * x[2]);

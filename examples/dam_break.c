@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank 1.61 x 0.6 m, in 3-D 0.15 m wide. */
+/* Dam break of Lobovsky et al. 2014: a column of water 0.6 m long and 0.3 m high in a tank
+ * 1.61 x 0.6 m, in 3-D 0.15 m wide. */
 #include "driver/tank.h"
 #include <string.h>
 

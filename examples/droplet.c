@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Drop of water in air without gravity, 5 mm in radius: pressure jump sigma/R at rest, or its second mode with
- * w^2 = 6 sigma/((rho_i + rho_o) R^3), started by the velocities of that mode. */
+/* Droplet of water in air without gravity, 5 mm in radius: pressure jump sigma/R at rest, or its
+ * second mode with w^2 = 6 sigma/((rho_i + rho_o) R^3), excited by initial velocities of this
+ * mode. */
 #include "driver/tank.h"
 #include <math.h>
 
@@ -11,7 +12,7 @@ enum { REST, OSCILLATION };
 static int in_drop(void *user, const double *x)
 {
     (void)user;
-    /* with the points on the circle its area is right within 3 % */
+    /* with the points on the circle the error of its area is below 3 % */
     return hypot(x[0] - BOX / 2, x[1] - BOX / 2) < (1 + 1e-9) * RADIUS;
 }
 
@@ -25,7 +26,8 @@ static void build(driver *d)
     driver_check(d, mps_fill_box_add(d->sim, 1, lo, size, NULL, NULL), "air");
 }
 
-/* Potential flow of r = R (1 + STRETCH sin(w t) cos(2 phi)) at t = 0: rate (x, -y) inside, the same at the surface and falling off outside. */
+/* Potential flow of r = R (1 + STRETCH sin(w t) cos(2 phi)) at t = 0: rate (x, -y) inside,
+ * continuous at the surface and decaying outside. */
 static void set_moving(driver *d)
 {
     double rate = STRETCH * sqrt(6 * d->sigma / ((WATER + TANK_AIR_DENSITY) * pow(RADIUS, 3)));

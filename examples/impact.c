@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Liquid that meets walls: cases of known impulse, force or pressure. summary.json has the figures, trace.csv every step. */
+/* Liquid impacts on walls: cases of known impulse, force or pressure. summary.json has the figures,
+ * trace.csv the values of every step. */
 #include "impact/impact.h"
 
 static const impact_case *const CASES[] = {&impact_flat, &impact_film,   &impact_wedge,
@@ -16,7 +17,7 @@ static void choose(impact *c, const impact_case *chosen)
     chosen->set(c, d);
     if (d->probe_dt == 0)
         d->probe_dt = d->t_end /
-                      500; /* the same with any --t-end: a run can go on to a later one */
+                      500; /* independent of --t-end: a run can continue to a later one */
     if (t_end > 0) d->t_end = t_end;
 }
 
@@ -46,7 +47,7 @@ int main(int argc, char **argv)
     d->dp_max = 0.1;
     d->t_end = 0;
     d->probe_dt = 0;
-    d->sensor_average = 0; /* the figures are means of their own */
+    d->sensor_average = 0; /* the figures have their own means */
     driver_parse(d, argc, argv);
     choose(&c, CASES[number]);
     driver_open(d);

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rayleigh-Taylor instability, Wen, Zhao & Wan 2022 section 4.2: 1.8 kg/m3 above 1 kg/m3 in a closed box of 1 x 2 m, mu = 2.5e-3 Pa s,
- * g = 1 m/s2, no surface tension, interface y = 1 - 0.15 sin(2 pi x). */
+/* Rayleigh-Taylor instability, Wen, Zhao & Wan 2022 section 4.2: 1.8 kg/m3 above 1 kg/m3 in a
+ * closed box of 1 x 2 m, mu = 2.5e-3 Pa s, g = 1 m/s2, no surface tension,
+ * interface y = 1 - 0.15 sin(2 pi x). */
 #include "driver/tank.h"
 #include <math.h>
 #include <string.h>
 
 static const double SIZE[] = {1, 2, 0}, HEAVY = 1.8, LIGHT = 1, VISCOSITY = 2.5e-3, GRAVITY = 1;
-static const double SMOOTHING = 1.5; /* of the interface, in spacings */
+static const double SMOOTHING = 1.5; /* of the interface [dp] */
 
-/* Volume of fluid, 256 x 512 cells: lightest and heaviest tip. */
+/* Volume-of-fluid solution, 256 x 512 cells: tips of the light and the heavy fluid. */
 static const double TIP_T[] = {1, 2, 3, 4, 5};
 static const double TOP[] = {1.229, 1.392, 1.558, 1.702, 1.828},
                     BOTTOM[] = {0.767, 0.566, 0.337, 0.159, 0.093};

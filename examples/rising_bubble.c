@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Rising bubble of Hysing et al. 2009: a bubble of radius 0.25 m, 0.5 m above the floor of a box of 1 x 2 m, g = 0.98 m/s2; no slip at
- * the floor and the ceiling, free slip at the vertical walls where the model of viscosity can do that. */
+/* Rising bubble of Hysing et al. 2009: a bubble of radius 0.25 m, 0.5 m above the floor of a box of
+ * 1 x 2 m, g = 0.98 m/s2; no slip at the floor and the ceiling, free slip at the vertical walls if
+ * the viscosity model supports it. */
 #include "driver/tank.h"
 #include <math.h>
 #include <string.h>
@@ -12,7 +13,7 @@ typedef struct fluids {
 
 static const fluids CASES[] = {{{1000, 100}, {10, 1}, 24.5}, {{1000, 1}, {10, 0.1}, 1.96}};
 static const double SIZE[] = {1, 2, 0}, CENTRE[] = {0.5, 0.5}, RADIUS = 0.25, GRAVITY = 0.98;
-static const double SMOOTHING = 2; /* of the interface, in spacings */
+static const double SMOOTHING = 2; /* of the interface [dp] */
 
 static int in_bubble(void *user, const double *x)
 {

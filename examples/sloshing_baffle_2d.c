@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Baffled tank of Zhang, Wan & Hino 2014 section 2.2: 0.57 x 0.5 m, 0.18 m of water, a baffle on the floor at mid-length,
- * moved by x = a sin wt. */
+/* Baffled tank of Zhang, Wan & Hino 2014 section 2.2: 0.57 x 0.5 m, 0.18 m of water, a baffle on
+ * the floor at mid-length, moved by x = a sin wt. */
 #include "driver/tank.h"
 
 static const tank_case tank = {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Baffled tank of Zhang, Wan & Hino 2014 section 2.3: 0.57 x 0.5 x 0.31 m, 0.2 m of water, a baffle with a gap below it,
- * moved by x = a sin wt at the first natural frequency of the tank without it. */
+/* Baffled tank of Zhang, Wan & Hino 2014 section 2.3: 0.57 x 0.5 x 0.31 m, 0.2 m of water, a baffle
+ * with a gap below it, moved by x = a sin wt at the first natural frequency of the tank without
+ * it. */
 #include "driver/tank.h"
 
 static const tank_case tank = {
@@ -9,11 +10,13 @@ static const tank_case tank = {
     .motion = {.dof = MPS_MOVE_X, .amplitude = 0.03, .omega = 6.582},
     .plate = {.middle = 0.278, .thickness = 0.006, .bottom = 0.05, .top = 0.2}};
 
-/* The paper prints a width of 0.6 m. Its particle numbers at dp 0.005, 274195 of liquid and 102500 of solids, are those of a lattice
- * 0.31 m wide, closed 0.25 m above the floor, with a baffle of one column, 26 points high and 67 (walls and dummies too) wide, 25 of
- * the rows in the water. The printed baffle has 31 rows in it: with --layers 1 there are 273829 of liquid. --paper-baffle builds the baffle
- * of the numbers, from 0.08 m to one row above the water, and the lower lid: 274195 of liquid and 111360 of solids, since the sides of a
- * thin plate have walls and dummies of their own. */
+/* The paper prints a width of 0.6 m. Its numbers of particles at dp 0.005, 274195 of liquid and
+ * 102500 of solids, correspond to a lattice 0.31 m wide, closed 0.25 m above the floor, with a
+ * baffle of one column, 26 points high and 67 wide (with walls and dummies), 25 of the rows in the
+ * water. The printed baffle has 31 rows in the water: with --layers 1 there are 273829 liquid
+ * particles. --paper-baffle builds the baffle of these numbers, from 0.08 m to one row above the
+ * water, and the lower lid: 274195 of liquid and 111360 of solids, because each side of a thin
+ * plate has its own walls and dummies. */
 static void use_paper_lattice(tank_case *c, driver *d)
 {
     c->size[1] = 0.25;

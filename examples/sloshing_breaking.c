@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Breaking wave of Wen, Zhao & Wan 2022 section 5.3 (experiment of Rafiee et al. 2011): a tank 1.3 x 0.9 m, in 3-D 0.1 m wide,
- * 0.18 m of water, moved by x = a sin(2 pi f t), f = 0.496 Hz. */
+/* Breaking wave of Wen, Zhao & Wan 2022 section 5.3 (experiment of Rafiee et al. 2011): a tank
+ * 1.3 x 0.9 m, in 3-D 0.1 m wide, 0.18 m of water, moved by x = a sin(2 pi f t), f = 0.496 Hz. */
 #include "driver/tank.h"
 #include <math.h>
 #include <string.h>
@@ -16,7 +16,7 @@ static void add_columns(driver *d, const tank_case *c)
     for (int i = 0; i < 3; i++) driver_wall(d, name[i], c->size[0], 0.165 + 0.015 * i, middle, 0);
     driver_gauge(d, "eta_left", dp, middle, level);
     driver_gauge(d, "eta_right", c->size[0] - dp, middle, level);
-    /* the cavity under the plunging crest: a model with air keeps it, one without lets it fall in */
+    /* the cavity under the plunging crest: it persists in a model with air and collapses without */
     mps_measure gas = driver_measure_of("trapped_gas", "air_volume", NULL);
     memcpy(gas.box + 3, c->size, sizeof c->size);
     driver_measure(d, gas);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Half-full tank of Wen, Zhao & Wan 2022 section 5.1: 0.6 x 0.6 m, 0.3 m of water, moved by x = -a (1 - cos wt). */
+/* Half-full tank of Wen, Zhao & Wan 2022 section 5.1: 0.6 x 0.6 m, 0.3 m of water, moved by
+ * x = -a (1 - cos wt). */
 #include "driver/tank.h"
 
 static const tank_case tank = {
@@ -7,7 +8,8 @@ static const tank_case tank = {
     .depth = 0.3,
     .motion = {.dof = MPS_MOVE_X, .form = 1, .amplitude = 0.005, .omega = 6.85}};
 
-/* Fully nonlinear potential flow: crests of the gauge above still level, and peaks of P1, two from each hump after 3 s. */
+/* Fully nonlinear potential flow: crests of the gauge above still level, and peaks of P1, two from
+ * each hump after 3 s. */
 static const double CREST_T[] = {1.16, 2.08, 2.99, 3.91, 4.85};
 static const double CREST[] = {0.0244, 0.0456, 0.0700, 0.0982, 0.1303};
 static const double PEAK_T[] = {0.58, 1.50, 2.40, 3.30, 3.60, 4.21, 4.55};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Shallow tank of Wen, Zhao & Wan 2022 section 5.2: 0.6 x 0.6 m, 0.03 m of water, moved by x = -a (1 - cos wt). */
+/* Shallow tank of Wen, Zhao & Wan 2022 section 5.2: 0.6 x 0.6 m, 0.03 m of water, moved by
+ * x = -a (1 - cos wt). */
 #include "driver/tank.h"
 
 static const tank_case tank = {

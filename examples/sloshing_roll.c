@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lateral impact of a shallow liquid, SPHERIC validation test 10 (Souto-Iglesias et al. 2011): a tank 0.9 x 0.508 m, 0.093 m of water or
- * sunflower oil, rolls about the middle of its floor by 4 degrees, with 0.85 of the first natural period. It is 62 mm wide; in 2-D the friction of its
- * side walls, which matters for oil, is --use friction.history --set friction.width=0.062. */
+/* Lateral impact of a shallow liquid, SPHERIC validation test 10 (Souto-Iglesias et al. 2011): a
+ * tank 0.9 x 0.508 m, 0.093 m of water or sunflower oil, rolls about the middle of its floor by 4
+ * degrees, at 0.85 of the first natural period. It is 62 mm wide; in 2-D the friction of its side
+ * walls, which matters for oil, is --use friction.history --set friction.width=0.062. */
 #include "driver/tank.h"
 #include <math.h>
 
@@ -33,7 +34,8 @@ static double build(driver *d, int32_t liquid, mps_harmonic motion)
     return level;
 }
 
-/* Pressures at the still level on both sides, heights at both walls and at a quarter of the length. */
+/* Pressures at the still level on both sides, surface elevations at both walls and at a quarter of
+ * the length. */
 static void add_columns(driver *d, double level)
 {
     const double dp = d->dp, z = 0.5 * SIZE[2];
@@ -63,8 +65,7 @@ int main(int argc, char **argv)
     d.t_end = 5;
     d.ramp = 0.5;
     d.has_dim = d.has_ramp = d.has_sigma = true;
-    d.need =
-        "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+    d.need = "reference.lid"; /* a closed tank full of liquid and gas needs a pressure datum */
     driver_own(&d, (option){"--liquid", "water|oil",
                             "998 kg/m3 and 0.894 mPa s, or 900 kg/m3 and 45 mPa s", TYPE_CHOICE,
                             &liquid, 0, 0, false, NULL});

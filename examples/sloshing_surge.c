@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Surge tank of Zhang, Wan & Hino 2014 section 2.1: a tank 0.8 x 0.5 m, 0.25 m of water, moved by x = a sin wt. */
+/* Surge tank of Zhang, Wan & Hino 2014 section 2.1: a tank 0.8 x 0.5 m, 0.25 m of water, moved
+ * by x = a sin wt. */
 #include "driver/tank.h"
 
 static const tank_case tank = {.size = {0.8, 0.5},
                                .depth = 0.25,
                                .motion = {.dof = MPS_MOVE_X, .amplitude = 0.02, .omega = 6.469}};
 
-/* Crests 8 mm from the left wall in fully nonlinear potential flow started by the same velocity jump
- * (scripts/validation/potential.py). */
+/* Crests 8 mm from the left wall in fully nonlinear potential flow with the same initial velocity
+ * jump (scripts/validation/potential.py). */
 static const double CREST_T[] = {1.107, 2.121, 3.202, 4.289, 5.364};
 static const double CREST[] = {0.0656, 0.1234, 0.1793, 0.1394, 0.0216};
 

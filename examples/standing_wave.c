@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* First standing wave of a basin of length 1 m and depth 0.5 m, released from the surface a cos(pi x/L), a = 0.02 m. */
+/* First standing wave of a basin of length 1 m and depth 0.5 m, released from the surface a cos(pi
+ * x/L), a = 0.02 m. */
 #include "driver/driver.h"
 #include <math.h>
 #include <stdlib.h>
 
 static const double LENGTH = 1, HEIGHT = 0.7, DEPTH = 0.5, AMPLITUDE = 0.02;
 
-/* Displace the lattice point (x, y) as linear theory does, which keeps areas: a straight stretch of the columns would
- * compress the water under the trough. What second order leaves at the top of a column is put right over its height. */
+/* Displace the lattice point (x, y) by linear theory, which conserves areas: a linear stretch of
+ * the columns would compress the water under the trough. The second-order error at the top of a
+ * column is distributed over its height. */
 static void displace(double x, double y, double k, double top, double *out)
 {
     double a = AMPLITUDE / sinh(k * top);
@@ -62,7 +64,8 @@ int main(int argc, char **argv)
     driver_open(&d);
     const double level = build(&d);
     driver_gauge(&d, "eta_left", d.dp, 0, level);
-    /* it sees the odd modes only, so the free second harmonic of the prescribed cosine drops out */
+    /* it measures odd modes only, which excludes the free second harmonic of the prescribed
+     * cosine */
     driver_measure(&d, driver_measure_of("centre_of_mass", "x_centre",
                                          "Centre of mass along x: of all liquid"));
     return driver_run(&d);

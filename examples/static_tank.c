@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Water at rest: 0.8 x 0.25 m in a tank 0.8 x 0.5 m, or 0.3 x 0.2 x 0.2 m in 3-D. Pressures must be hydrostatic and nothing move. */
+/* Water at rest: 0.8 x 0.25 m in a tank 0.8 x 0.5 m, or 0.3 x 0.2 x 0.2 m in 3-D. Pressures must be
+ * hydrostatic and velocities zero. */
 #include "driver/tank.h"
 
 /* Inner size of the tank and depth of the water [m]; y is up. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two fluids at rest, Wen, Zhao & Wan 2022 section 4.1: 0.75 m of 1000 kg/m3 below 0.75 m of 1 kg/m3 in a closed tank 1 m wide. */
+/* Two fluids at rest, Wen, Zhao & Wan 2022 section 4.1: 0.75 m of 1000 kg/m3 below 0.75 m of
+ * 1 kg/m3 in a closed tank 1 m wide. */
 #include "driver/tank.h"
 
 static const double SIZE[] = {1, 1.5, 0}, LAYER = 0.75, HEAVY = 1000, LIGHT = 1, VISCOSITY = 1e-3;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How much of many things alike a test does. Sanitizers make it three to ten times slower: there it does some of them, in all other builds all.
- * MPS_TEST_ALL in the environment asks for all there too. */
+/* Selection from many similar cases of a test. Sanitizers are three to ten times slower: with them
+ * a test runs some of its cases, in all other builds all. MPS_TEST_ALL in the environment selects
+ * all. */
 #ifndef TESTS_EVERY_H
 #define TESTS_EVERY_H
 
@@ -18,8 +19,8 @@ static inline int64_t every(int64_t each)
 #endif
 }
 
-/* Whether the number-th thing of the series-th series has its turn, if one of `each` has. Series begin at different ones, so that what they
- * have in common comes in one of them. */
+/* Whether case `number` of series `series` is selected, if one of `each` is. Series start at
+ * different cases, so that each common case is selected in one of them. */
 static inline bool has_turn(int64_t number, int64_t series, int64_t each)
 {
     return (number + series) % every(each) == 0;

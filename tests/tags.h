@@ -11,8 +11,9 @@ static inline mps_status tags_lease(mps_sim *sim, const char *field, mps_lease *
     return mps_lease_begin(sim, field, MPS_READ, lease);
 }
 
-/* Arrays [mps_particles_count(sim, -1)] of ids, kinds, phases and parts; NULL outputs are skipped. The leases end at once, so that tests
- * can go on: in this library the arrays stay where they are until the next step, add or remove. */
+/* Arrays [mps_particles_count(sim, -1)] of ids, kinds, phases and parts; NULL outputs are skipped.
+ * The leases end at once, so that tests can go on: in this library the arrays stay where they are
+ * until the next step, add or remove. */
 static inline mps_status tags_peek(mps_sim *sim, const int64_t **ids, const int32_t **kinds,
                                    const int32_t **phases, const int32_t **parts)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A tank that rolls, from C++17: pressure at the wall, energies, a picture of the particles in ParaView.
+// A tank that rolls, from C++17: pressure at the wall, energies, a picture of the particles in
+// ParaView.
 //   c++ -std=c++17 tank.cpp $(pkg-config --cflags --libs mps) -o tank
 #include <mps/mps.hpp>
 
@@ -22,7 +23,7 @@ try {
 
     const double amplitude = 0.07, omega = 5.0;
     sim.centre({0.5, 0});
-    sim.move([=](double t, mps_motion_state &state) { // starts softly, as x^3 at its begin
+    sim.move([=](double t, mps_motion_state &state) { // smooth start, as x^3
         const double x = std::fmin(t / 2.0, 1.0), f = x * x * x * (10 + x * (6 * x - 15)),
                      df = x < 1 ? 15 * x * x * (1 - x) * (1 - x) : 0,
                      ddf = x < 1 ? 7.5 * 2 * x * (1 - x) * (1 - 2 * x) : 0, s = std::sin(omega * t),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The command line of the drivers, and how they end. */
+/* The command line of the drivers, and their exit. */
 #include "driver.h"
 #include <fcntl.h>
 #include <stdarg.h>
@@ -18,7 +18,7 @@ void driver_finish(driver *d)
     if (d->ranks.end) d->ranks.end(d->ranks.user);
 }
 
-/* exit() on all ranks; one of them shows its text. */
+/* exit() on all ranks; one rank prints its text. */
 static _Noreturn void leave(driver *d, int code, const char *text)
 {
     int32_t speak;
@@ -54,7 +54,7 @@ _Noreturn void driver_refuse(driver *d, const char *format, ...)
 void driver_check(driver *d, mps_status status, const char *what)
 {
     if (status >= 0) return;
-    /* the geometry is fixed: what does not fit is an option, mostly --dp */
+    /* the geometry is fixed: the error is an option, usually --dp */
     driver_leave(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s: %s", what,
                  mps_status_name(status), mps_sim_error(d->sim));
 }
@@ -68,7 +68,7 @@ void driver_check_job(driver *d, mps_status status)
 
 /* ---- ranks ---- */
 
-/* A number that mpirun of Open MPI, or of MPICH and others, gives to each process. */
+/* Rank variables that mpirun of Open MPI, or of MPICH and others, sets for each process. */
 static int started_with(const char *openmpi, const char *pmi)
 {
     const char *text = getenv(openmpi);
@@ -76,7 +76,7 @@ static int started_with(const char *openmpi, const char *pmi)
     return text ? atoi(text) : 0;
 }
 
-/* Several processes that are not one run would all write to the same folder. */
+/* Processes that mpirun starts without --mpi would all write to the same folder. */
 static void check_alone(driver *d)
 {
     const int count = started_with("OMPI_COMM_WORLD_SIZE", "PMI_SIZE");
@@ -87,11 +87,11 @@ static void check_alone(driver *d)
             "mpirun started %d processes: --mpi makes one run of them; without it start one "
             "process",
             count);
-    sleep(1); /* mpirun ends all processes with the first one that exits so */
+    sleep(1); /* mpirun then ends all processes */
     leave(d, MPS_EXIT_USAGE, "");
 }
 
-/* Look for --mpi and begin with MPI before anything is printed. */
+/* Search --mpi and initialise MPI before any output. */
 static void begin_ranks(driver *d, int argc, char **argv)
 {
     char error[600];
@@ -199,7 +199,8 @@ static _Noreturn void answer(driver *d, const option *asked, const option *table
     leave(d, MPS_EXIT_OK, "");
 }
 
-/* Where a host starts a driver without standard streams, the first files would take their numbers, and messages would land in them. */
+/* If a driver is started without standard streams, the first opened files would get their
+ * descriptors and receive messages. */
 static void fill_streams(void)
 {
     for (int fd = 0; fd <= 2; fd++)
@@ -236,7 +237,7 @@ void driver_own(driver *d, option own)
     if (d->owns < DRIVER_OWN) d->own[d->owns++] = own;
 }
 
-/* How the driver was called. */
+/* The command line as text. */
 static void keep_command(driver *d, int argc, char **argv)
 {
     size_t used = 0;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One table, from which the command line is read and explained. */
+/* Parse and explain the command line by a table of options. */
 #include "options.h"
 #include <math.h>
 #include <stdarg.h>
@@ -16,7 +16,7 @@ static bool refuse(char *message, const char *format, ...)
     return false;
 }
 
-/* Word `index` of "one|two"; its length, or 0 behind the last. */
+/* Word `index` of "one|two"; its length, or 0 after the last. */
 static int word_of(const char *words, int32_t index, const char **word)
 {
     if (!words) words = ""; /* an option without an argument */
@@ -30,7 +30,7 @@ static int word_of(const char *words, int32_t index, const char **word)
 
 /* ---- help ---- */
 
-/* The default of an option as it is shown in --help. */
+/* The default of an option in --help. */
 static void default_text(const option *e, char *text, size_t size)
 {
     text[0] = '\0';
@@ -148,7 +148,7 @@ static bool set(const option *e, const char *text, char *message)
     }
 }
 
-/* ---- the line ---- */
+/* ---- command line ---- */
 
 static const option *find(const option *table, int count, const char *name, size_t length)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A command line by a table of options: every value is checked by name and range. */
+/* Parser of a command line by a table of options: checks names and ranges of all values. */
 #ifndef MPS_EXAMPLES_OPTIONS_H
 #define MPS_EXAMPLES_OPTIONS_H
 
@@ -10,26 +10,27 @@
 
 enum { OPTION_TEXTS = 32, OPTION_NUMBERS = 24, OPTION_MESSAGE = 512 };
 
-/* How the text of an option is read. TYPE_CHOICE: one of the words of `argument`, "one|two", into an int32_t from 0. */
+/* Type of an option. TYPE_CHOICE: one of the words of `argument`, "one|two", as an int32_t from
+ * 0. */
 typedef enum option_type {
     TYPE_TEXT, /* const char * */
     TYPE_REAL, /* double */
     TYPE_INT,  /* int32_t */
     TYPE_FLAG, /* bool */
     TYPE_CHOICE,
-    TYPE_LIST,  /* option_list; may be given several times */
+    TYPE_LIST,  /* option_list; may be repeated */
     TYPE_TIMES, /* option_times; ascending, "2.2,2.3" */
     TYPE_ASK    /* ends the parsing: --help and the like */
 } option_type;
 
-/* One option. Reals are checked against min <= value <= max, with min = 0 against 0 < value; min < 0 stands for 0 <= value. */
+/* One option. Range of reals: min <= value <= max; min = 0: 0 < value; min < 0: 0 <= value. */
 typedef struct option {
     const char *name, *argument, *help;
     option_type type;
     void *value;
     double min, max;
-    bool flag;   /* what a TYPE_FLAG sets */
-    bool *given; /* NULL, or set to true if the option is there */
+    bool flag;   /* value that a TYPE_FLAG sets */
+    bool *given; /* NULL, or set to true if the option is present */
 } option;
 
 typedef struct option_list {
@@ -42,11 +43,11 @@ typedef struct option_times {
     double t[OPTION_NUMBERS];
 } option_times;
 
-/* Parse argv; both "--dp 0.01" and "--dp=0.01" are understood.
- * @param message  [OPTION_MESSAGE] out: what is wrong, one or two lines; "" if nothing is
- * @return NULL, or the option of TYPE_ASK that was asked for */
+/* Parse argv; both "--dp 0.01" and "--dp=0.01" are accepted.
+ * @param message  [OPTION_MESSAGE] out: the error, one or two lines; "" without an error
+ * @return NULL, or the requested option of TYPE_ASK */
 const option *options_parse(const option *table, int count, int argc, char **argv, char *message);
-/* A line for each option, with its default. */
+/* Print a line for each option, with its default. */
 void options_help(FILE *out, const option *table, int count);
 
 #endif

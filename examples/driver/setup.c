@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* From the options to a simulation and its job: models, solver, time step, columns. */
+/* Set up a simulation and its job from the options: models, solver, time step, columns. */
 #include "driver.h"
 #include <math.h>
 #include <signal.h>
@@ -8,7 +8,8 @@
 
 /* ---- models ---- */
 
-/* "slot.key=value"; the slot may be a full name, so the key begins behind the last dot. @return the library's answer */
+/* "slot.key=value"; the slot may be a full name, so the key begins after the last dot. @return
+ * status of the library */
 static mps_status set_model(driver *d, const char *text)
 {
     char slot[96], *key, *end;
@@ -30,23 +31,25 @@ static bool has_model(const driver *d, const char *slot)
     return false;
 }
 
-/* What the case cannot do without, and what it must not have. */
+/* Models that the case needs, and models that it must not have. */
 static void suit_models(driver *d)
 {
     char slot[48];
     if (d->no_gas && has_model(d, "gas"))
         driver_check(d, mps_model_remove(d->sim, "gas"), "models");
     if (d->gravity == 0 && has_model(d, "reference"))
-        driver_check(d, mps_model_remove(d->sim, "reference"), "models"); /* it asks where up is */
+        driver_check(d, mps_model_remove(d->sim, "reference"), "models"); /* needs the direction of
+                                                                             gravity */
     else if (d->no_gas)
         driver_check(d, mps_model_use(d->sim, "reference.lid"),
-                     "models"); /* p = 0 atop the gas, as in the papers, is within the tank */
+                     "models"); /* p = 0 at the top of the gas, as in the papers, is inside the
+                                   tank */
     if (!d->need || !(d->both_phases || driver_has_gas(d))) return;
     snprintf(slot, sizeof slot, "%.*s", (int)strcspn(d->need, "."), d->need);
     if (!has_model(d, slot)) driver_check(d, mps_model_use(d->sim, d->need), "models");
 }
 
-/* The case's surface tension, which --set may change again. */
+/* Surface tension of the case, which --set may change. */
 static void set_tension(driver *d)
 {
     if (has_model(d, "tension"))
@@ -57,7 +60,7 @@ static void set_tension(driver *d)
                      d->model);
 }
 
-/* Do something for each text of an option. */
+/* Call a function for each text of an option. */
 static void use_each(driver *d, const char *name, const option_list *list,
                      mps_status (*use)(driver *d, const char *text))
 {
@@ -105,7 +108,7 @@ static void use_solver(driver *d)
 
 /* ---- opening ---- */
 
-/* To the letter of the papers. */
+/* Models literally as in the papers. */
 static bool is_paper(const driver *d)
 {
     size_t length = strlen(d->model);
@@ -120,7 +123,8 @@ static void set_time(driver *d)
     control.dt = d->dt;
     control.cfl = d->cfl;
     if (is_paper(d))
-        control.gravity = 0.03; /* W22's steps are 0.01; at 0.06 it fails even sooner */
+        control.gravity = 0.03; /* steps of W22 (Wen, Zhao & Wan 2022) are 0.01; at 0.06 it fails
+                                   even earlier */
     if (d->calm > 0) control.gravity = d->calm;
     driver_check(d, mps_time_control_set(d->sim, &control), "time step");
     snprintf(text, sizeof text, d->dt > 0 ? "%.6g s" : "%.6g", d->dt > 0 ? d->dt : d->cfl);
@@ -129,8 +133,8 @@ static void set_time(driver *d)
                d->job, d->dt > 0 ? "time step, fixed" : "time step: largest dt u / dp", text));
 }
 
-/* The library's warning of a short average, in the words of the command line. Of a driver that chose the average itself it says nothing.
- * @return false: another message */
+/* Translate the library's warning of a short average to options of the command line. Suppress it if
+ * the driver set the average. @return false: another message */
 static bool log_average(driver *d, const char *text)
 {
     double t, average, crossing;
@@ -190,7 +194,7 @@ static void open_job(driver *d)
     c.error = error;
     c.error_size = sizeof error;
     const mps_status status = mps_job_create(&c, &d->job);
-    if (status != MPS_OK) /* of all ranks: rank 0 has opened the folder */
+    if (status != MPS_OK) /* on all ranks: rank 0 has created the folder */
         driver_leave(d, status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE, "%s", error);
 }
 
@@ -198,7 +202,7 @@ void driver_open(driver *d)
 {
     char error[640] = "";
     mps_config config;
-    signal(SIGPIPE, SIG_IGN); /* a reader of stderr that goes away does not end the run */
+    signal(SIGPIPE, SIG_IGN); /* the run continues if the reader of stderr ends */
     open_job(d);
     mps_config_init(&config, sizeof config);
     config.dim = d->dim;
@@ -206,7 +210,7 @@ void driver_open(driver *d)
     config.threads = d->threads;
     config.gravity[1] = -d->gravity;
     config.velocity_scale = d->velocity_scale;
-    if (is_paper(d) && d->dim == 2) config.re_far = 4.1; /* W22; in 3-D no paper says */
+    if (is_paper(d) && d->dim == 2) config.re_far = 4.1; /* W22; the papers give no value in 3-D */
     if (d->re_far > 0) config.re_far = d->re_far;
     config.log = log_message;
     config.log_user = d;

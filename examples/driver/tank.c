@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Building tanks of water. */
+/* Build tanks of water. */
 #include "tank.h"
 #include <math.h>
 #include <string.h>
@@ -27,8 +27,8 @@ void tank_walls_about(driver *d, const double *size, double middle, double *lo, 
     driver_check(d, mps_tank_add(d->sim, &tank, NULL), "tank");
 }
 
-/* A vertical baffle on the nearest lattice points: its faces are columns of wall particles, so n columns are n - 1 cells thick:
- * d->layers of them, or as its thickness says. */
+/* A vertical baffle on the nearest lattice points. Its faces are columns of wall particles, so n
+ * columns are n - 1 cells thick; n is d->layers or follows from the thickness. */
 static void add_baffle(driver *d, const baffle *b, double width)
 {
     double h[3], columns = d->layers;
@@ -97,8 +97,7 @@ void tank_parse(driver *d, const tank_case *c, int argc, char **argv)
     d->has_layers = c->plate.top > 0;
     d->has_sigma = !d->has_layers;
     if (!d->has_layers)
-        d->need =
-            "reference.lid"; /* in a closed tank full of liquid and gas something must set the level of the pressures */
+        d->need = "reference.lid"; /* a closed tank full of liquid and gas needs a pressure datum */
     driver_parse(d, argc, argv);
 }
 

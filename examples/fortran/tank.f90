@@ -1,13 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! A tank that rolls, from Fortran: pressure at the wall, energies, a picture of the particles in ParaView.
+! A tank that rolls, from Fortran: pressure at the wall, energies, a picture of the particles in
+! ParaView.
 !   F=$(pkg-config --variable=fortrandir mps)
-!   gfortran $F/mps_types.f90 $F/mps_functions.f90 $F/mps.f90 tank.f90 $(pkg-config --libs mps) -o tank
+!   gfortran $F/mps_types.f90 $F/mps_functions.f90 $F/mps.f90 tank.f90 \
+!       $(pkg-config --libs mps) -o tank
 module roll
     use mps
     implicit none
     real(c_double), parameter :: amplitude = 0.07_c_double, omega = 5.0_c_double
 contains
-    ! Pose at a time: starts with the velocity of the tank 0, as 1 - cos.
+    ! Pose at a time: 1 - cos, so that the tank starts with velocity 0.
     function pose(user, t, state) bind(C) result(failed)
         type(c_ptr), value :: user
         real(c_double), value :: t

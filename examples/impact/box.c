@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A dam break runs over a low box on the floor; in 3-D half of it, with a wall on the plane of symmetry, the box's side free. The stream
- * presses on the whole front face; on the top behind the edge and on the rear face, where the void reaches, nothing pulls. */
+/* A dam break flows over a low box on the floor; in 3-D half of it, with a wall on the plane of
+ * symmetry and a free side of the box. The pressure is positive on the whole front face; on the top
+ * behind the edge and on the rear face, adjacent to the void, there is no suction. */
 #include "impact.h"
 #include <math.h>
 
 static const double LENGTH = 3.2, HEIGHT = 1, HALF_BREADTH = 0.48, COLUMN_LENGTH = 1.24,
                     COLUMN_HEIGHT = 0.55, GRAVITY = 9.81;
-/* The box: near face; length and height; half breadth [m]. */
+/* The box: position of its front; length and height; half width [m]. */
 static const double FRONT = 2.4, BOX = 0.16, BOX_HALF_BREADTH = 0.2;
 static const double PASSED = 0.6, MEANS_END = 0.9; /* means of the passing stream [s] */
-/* Of the run in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s]. */
+/* Duration in 2-D and 3-D: in 2-D liquid falls behind the box from 1.3 s on [s]. */
 static const double END[] = {1.6, 0.9};
 enum { FRONTS = 4, TOPS = 4 };
 

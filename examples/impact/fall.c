@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Gravity. `column`: liquid as wide as its tank falls flat on the floor; nothing before, impulse rho h U, no rebound, rho g h in the end.
- * `floor`: a column that stands free on a floor which leaves downwards at 2 g. Liquid that the void reaches falls freely, with pressure 0 and a
- * gap of g t^2/2; it reaches the rim first. The middle is shut off from it: no air can get in there, so the floor takes its liquid along and
- * pulls until the void has come in from the rims. So the rim has an exact answer, the middle and its gap have none. */
+/* With gravity. `column`: liquid as wide as its tank falls flat on the floor: pressure 0 before
+ * contact, impulse rho h U, no rebound, finally rho g h. `floor`: the floor under a free column
+ * accelerates downwards at 2 g. Liquid in contact with the void falls freely, with pressure 0 and a
+ * gap of g t^2/2, first at the edges of the floor. The void cannot enter the middle: the floor
+ * pulls the liquid there down with it until the void arrives from the edges. So the edges have an
+ * exact solution, the middle and its gap do not. */
 #include "impact.h"
 #include <math.h>
 
 static const double HEIGHT = 0.5, DROP = 0.1, BREADTH = 0.4, GRAVITY = 9.81;
-/* Time simulated after contact; statics are measured from REST_FROM on [s]. */
+/* Simulated time after contact; hydrostatics are measured from REST_FROM on [s]. */
 static const double REST = 1, REST_FROM = 0.5;
 static const double PULL = 0.2;            /* time simulated [s] */
 static const double BEFORE = 3, AFTER = 4; /* window about contact [dp/U] */
@@ -57,7 +59,8 @@ static void build_column(impact *c)
     impact_figure(c, "peak_mean", MPS_TRACE_LARGEST, "P", smooth, rho * u * u);
 }
 
-/* ---- the floor leaves ------------------------------------------------------------------------------------------- */
+/* ---- moving floor
+ * ------------------------------------------------------------------------------------------- */
 
 static int leave(void *user, double t, mps_motion_state *s)
 {

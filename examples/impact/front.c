@@ -1,16 +1,17 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A block or a film of liquid slides along a floor and meets a vertical wall, without gravity.
  *
- * Block of length L and height H, pressure 0 on its top and back (Cooker and Peregrine 1995): impulse of pressure at depth d
- * I = rho U H sum 2 sin(l d/H) tanh(l L/H)/l^2, l = (n - 1/2) pi, n = 1, 2, ...; on the whole wall rho U H^2 sum 2 tanh(l L/H)/l^3.
- * Film of height h, long: the impact of a long block, and then rho U^2 h. */
+ * Block of length L and height H, pressure 0 on its top and back (Cooker and Peregrine 1995):
+ *   pressure impulse at depth d: rho U H sum 2 sin(l d/H) tanh(l L/H)/l^2,
+ *   on the whole wall: rho U H^2 sum 2 tanh(l L/H)/l^3,   l = (n - 1/2) pi, n = 1, 2, ...
+ * Long film of height h: the impact of a long block, then rho U^2 h. */
 #include "impact.h"
 #include <math.h>
 #include <string.h>
 
-/* Height of the block; spacing of rows, which means nothing to a film [m]. */
+/* Height of the block; spacing of rows, irrelevant for a film [m]. */
 static const double HEIGHT = 1, ROW = 0.01;
-static const double BEFORE = 3, SHORT = 1, LONG = 4, LATE = 12; /* windows about contact [dp/U] */
+static const double BEFORE = 3, SHORT = 1, LONG = 4, LATE = 12; /* windows around contact [dp/U] */
 enum { FILM_LENGTH = 40, SERIES = 400 };
 
 /* Impulses of the block; depth < 0: mean of the whole wall. */
@@ -24,7 +25,8 @@ static double impulse(double depth, double length)
     return sum;
 }
 
-/* Liquid of `rows` and `columns` particles at the start, its foremost column IMPACT_GAP spacings from the wall. @return place of the wall */
+/* Initial liquid of `rows` times `columns` particles, its foremost column IMPACT_GAP spacings from
+ * the wall. @return position of the wall */
 static double build_front(impact *c, int rows, int columns)
 {
     const double dp = c->d.dp;

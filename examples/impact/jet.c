@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A jet falls on a wide wall, without gravity: while it is steady, rho U^2/2 at the stagnation point and rho U^2 b in all. */
+/* A jet falls on a wide wall, without gravity: in the steady phase rho U^2/2 at the stagnation
+ * point and rho U^2 b on the whole wall. */
 #include "impact.h"
 #include <math.h>
 
 static const double WIDTH = 1; /* b [m] */
-/* Of the jet and the wall [b]; of the steady phase after contact [b/U]. */
+/* Lengths of the jet and the wall [b]; times of the steady phase after contact [b/U]. */
 enum { LENGTH = 6, HALF_WALL = 12, BEGIN = 2, END = 5 };
 
 static void set(impact *c, driver *d)

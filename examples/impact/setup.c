@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the cases share: walls, liquid with a velocity, figures. */
+/* Common code of the cases: walls, liquid with a velocity, figures. */
 #include "impact.h"
 
 void impact_weightless(impact *c, driver *d)
 {
     d->gravity = 0;
-    /* that of a flow of Froude number 10 over one spacing; limits dt at cfl 0.6 */
+    /* velocity scale of a flow with Froude number 10 at the length dp; limits dt at cfl 0.6 */
     d->velocity_scale = 0.1 * c->speed;
 }
 

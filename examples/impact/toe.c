@@ -1,23 +1,26 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The toe of a jet of thickness h = rows dp falls on a wide wall, without gravity. Its tip is flat, a wedge or half a circle. Columns of
- * particles begin where the tip does, so that the shape is there with any number of rows.
+/* The toe of a jet of thickness h = rows dp meets a wide wall, without gravity. Its tip is flat,
+ * a wedge or half a circle. Columns of particles begin at the tip, so that its shape is resolved
+ * with any number of rows.
  *
  * Exact, x from the middle of the wall, rho U = 1, H = h/2:
- *   flat   impulse at contact as of a block on its plane of symmetry (front.c): at |x| < a in the mean
- *          H^2/a sum 2 cos(l (1 - a/H)) tanh(l L/H)/l^3, on the whole wall 2 H^2 sum 2 tanh(l L/H)/l^3
+ *   flat   impulse at contact of a block on its plane of symmetry (front.c): mean over |x| < a
+ *          H^2/a sum 2 cos(l (1 - a/H)) tanh(l L/H)/l^3,
+ *          on the whole wall 2 H^2 sum 2 tanh(l L/H)/l^3
  *   wedge  Wagner, small deadrise b: wetted half width c = pi U t/(2 tan b)
  *   round  Wagner, early: c = 2 sqrt(R U t), R = h/2
  *          impulse sqrt(c^2 - x^2) at x < c, pi c^2/2 on the whole wall
- * and once the flow is steady rho U^2/2 in the middle and rho U^2 h in all. */
+ * and in the steady phase rho U^2/2 in the middle and rho U^2 h on the whole wall. */
 #include "impact.h"
 #include <math.h>
 
-/* Of the toe, of half of the wall, of the sensor [h]. */
+/* Lengths of the toe, of half of the wall, of the sensor [h]. */
 enum { LENGTH = 3, HALF_WALL = 4 };
-static const double SENSOR = 0.25, SIDE = 1; /* width, place of the one beside the toe */
-/* Of means and impulses, and of the steady phase after contact [h/U]: a toe 30 mm thick at 2.4 m/s has 1 and 5 ms. */
+static const double SENSOR = 0.25, SIDE = 1; /* width, position of the sensor next to the toe */
+/* Windows of means and impulses, and of the steady phase after contact [h/U]: 1 and 5 ms for a toe
+ * 30 mm thick at 2.4 m/s. */
 static const double BRIEF = 0.08, LONG = 0.4, BEGIN = 0.8, END = 1.2;
-static const double BEFORE = 3; /* impulses begin so long before contact [dp/U] */
+static const double BEFORE = 3; /* start of impulses before contact [dp/U] */
 enum { FLAT, WEDGE, ROUND, SERIES = 400 };
 
 static void set(impact *c, driver *d)
@@ -36,7 +39,7 @@ static double tip(const impact *c, double x)
     return 0;
 }
 
-/* Move the columns to where the tip is. */
+/* Move the columns to the tip. */
 static void draw(impact *c, double middle)
 {
     driver *d = &c->d;
@@ -52,7 +55,8 @@ static void draw(impact *c, double middle)
     driver_check(d, mps_lease_end(d->sim, &kind), "tip");
 }
 
-/* Impulse of a block of height 1 on its wall: mean of the last a before the bottom, a = 1: of all. */
+/* Impulse of a block of height 1 on its wall: mean over the lowest part of height a; a = 1: whole
+ * wall. */
 static double flat_impulse(double a)
 {
     double sum = 0;

@@ -1,15 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A wide block of liquid meets a rigid wedge at rest, without gravity: the flow is self-similar (Dobrovol'skaya 1969; numbers of Zhao and
- * Faltinsen 1993). Half of it, with a wall on the plane of symmetry. The wetted side is reckoned to the undisturbed surface, V t/sin(b).
- * Pressure 0 on the sides and the back of the block takes some of the force: at 30 degrees and a wetted side of 0.2 m its slope is
- * 17 % too low with a block of 1 m, 3 % with 2 m, compared with 4 m. */
+/* A wide block of liquid meets a rigid wedge at rest, without gravity: the flow is self-similar
+ * (Dobrovol'skaya 1969; numbers of Zhao and Faltinsen 1993). Half of it, with a wall on the plane
+ * of symmetry. The wetted side is measured to the undisturbed surface, V t/sin(b). Pressure 0 on
+ * the sides and the back of the block reduces the force: at 30 degrees and a wetted side of 0.2 m
+ * its slope is 17 % too low with a block of 1 m, 3 % with 2 m, compared with 4 m. */
 #include "impact.h"
 #include <math.h>
 #include <stdio.h>
 
 /* Wetted side at the end; half width of the wedge [m]. */
 static const double SIDE = 0.2, FOOT = 0.6;
-enum { SENSORS = 160, FIRST = 2 }; /* along the side; the first, in spacings from the edge */
+enum { SENSORS = 160, FIRST = 2 }; /* along the side; position of the first [dp from the edge] */
 
 /* Sensors one spacing apart along the side; their largest value is a column. */
 typedef struct row {
@@ -20,7 +21,7 @@ typedef struct row {
 
 typedef struct wedge {
     double slope, cosine, top;
-    row raw, narrow, wide; /* 2 dp as it is; 2 and 4 dp, means of the last dp/V */
+    row raw, narrow, wide; /* 2 dp instantaneous; 2 and 4 dp, means over the last dp/V */
 } wedge;
 
 static double angle(const impact *c)
@@ -33,7 +34,7 @@ static double top(const impact *c, double dp)
     return lround(FOOT / dp) * dp * tan(angle(c));
 }
 
-/* Of the liquid, on the lattice. */
+/* Width of the liquid, on the lattice. */
 static int first_row(const impact *c, double dp)
 {
     return (int)ceil(top(c, dp) / dp - 1e-6) + IMPACT_GAP;
@@ -52,7 +53,7 @@ static double side(void *user, const double *x)
     return (x[1] - w->top + w->slope * x[0]) * w->cosine;
 }
 
-/* Number of the sensor with the largest value; -1 if one cannot be read. */
+/* Index of the sensor with the largest value; -1 if a sensor cannot be read. */
 static int find_largest(const row *s, mps_sim *sim, double *most)
 {
     int at = 0;
@@ -72,7 +73,7 @@ static double largest(void *user, mps_sim *sim)
     return find_largest(user, sim, &most) < 0 ? NAN : most;
 }
 
-/* Where it is along the side, from the edge of the wedge. */
+/* Its position along the side, from the edge of the wedge. */
 static double place(void *user, mps_sim *sim)
 {
     const row *s = user;
@@ -81,7 +82,7 @@ static double place(void *user, mps_sim *sim)
     return at < 0 ? NAN : (at + FIRST) * s->spacing;
 }
 
-/* The jet is not looked at: sensors reach 2.5 times as far as the undisturbed surface. */
+/* The jet is not measured: sensors extend to 2.5 times the distance of the undisturbed surface. */
 static void add_row(impact *c, const wedge *w, row *s, const char *name, double diameter,
                     double average)
 {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tank of 50 kg/m that is free to move along x, released with a tilted surface: two-way coupling with the added mass of
-the liquid. Linear theory of this tank: 7.510 rad/s, fixed 5.389 rad/s. In each step (M + A) a = F0, the load is F0 - A a."""
+"""A tank of 50 kg/m that is free to move along x, released with a tilted surface: two-way coupling
+with the added mass of the liquid. Linear theory: 7.510 rad/s for this tank, 5.389 rad/s for a fixed
+tank. In each step (M + A) a = F0, the load is F0 - A a."""
 import math
 
 import mps
@@ -17,7 +18,8 @@ before = sim.snapshot()
 t, velocity = [], []
 while sim.t < 4.0:
     before.take()
-    for _ in range(4):  # the load is linear in a: two trials are enough unless liquid separates from a wall
+    # the load is linear in a: two trials are enough unless liquid separates from a wall
+    for _ in range(4):
         sim.pose_to(sim.t + DT, {"x": x + (v + a * DT) * DT})
         sim.step(DT)
         load = sim.load()

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The tank of coupled_box.py as a body of the library: 50 kg/m, free to move along x, released with a tilted surface. The library
-solves the body together with its liquid. Linear theory of this tank: 7.510 rad/s, fixed 5.389 rad/s."""
+"""The tank of coupled_box.py as a rigid body of the library: 50 kg/m, free to move along x, released
+with a tilted surface. The library solves its motion together with the liquid. Linear theory:
+7.510 rad/s for this tank, 5.389 rad/s for a fixed tank."""
 import math
 
 import mps

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A tank that rolls, from Python: pressure at the wall and height of the surface, with plots where matplotlib is installed.
+"""A tank that rolls, from Python: pressure at the wall and height of the surface, with plots if
+matplotlib is installed.
 usage: python3 tank.py [seconds]"""
 from __future__ import annotations
 

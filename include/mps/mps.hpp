@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file mps.hpp  libmps from C++17: objects that give back what they hold, exceptions with the
- *  library's text, lambdas as callbacks, arrays as spans. A layer over the functions of C, all of
- *  which can be used beside it: handle().
+/** @file mps.hpp  C++17 interface of libmps: RAII objects, exceptions with the text of the library,
+ *  lambdas as callbacks, arrays as spans. All C functions can be used together with it: handle().
  *
  *      mps::config config;
  *      config.dp = 0.01;
@@ -12,11 +11,11 @@
  *      sim.fill_level({0, 0}, {1.0, 0.3});
  *      sim.run(2.0, [](mps::simulation &s, const mps_step_info &info) { return info.t > 1.0; });
  *
- *  Objects of one simulation are used by one thread at a time. A probe, a lease and frames keep
- *  their simulation in memory, even after its object was destroyed or assigned. So does each call:
- *  a callback may destroy, move or assign the object. A run whose simulation has no object any more
- *  stops after its step, and the simulation is destroyed when the call returns. A simulation that
- *  was moved from is empty: its calls throw MPS_E_STATE. */
+ *  Objects of one simulation are used by one thread at a time. A probe, a lease, frames and each
+ *  running call share the ownership of their simulation: it remains valid if its object is
+ *  destroyed, moved or assigned, also by a callback. If its object is destroyed during a run, the
+ *  run stops after the current step, and the simulation is destroyed when the call returns. A
+ *  moved-from simulation is empty: its calls throw MPS_E_STATE. */
 #ifndef MPS_HPP
 #define MPS_HPP
 
@@ -37,7 +36,7 @@
 
 namespace mps {
 
-/** A call failed; the state is as before. what() is the text of the library. */
+/** A call failed; the state is unchanged. what() is the text of the library. */
 class error : public std::runtime_error {
   public:
     error(mps_status status, const std::string &text)
@@ -53,7 +52,7 @@ class error : public std::runtime_error {
     mps_status status_;
 };
 
-/** A struct of C with its defaults. */
+/** A C struct with its defaults. */
 template <class T, mps_status (*init)(T *, std::size_t)> struct with_defaults : T {
     with_defaults() : T()
     {
@@ -80,7 +79,7 @@ using momentum = with_defaults<mps_momentum, mps_momentum_init>;
 using ship = with_defaults<mps_ship, mps_ship_init>;
 using ship_motion = with_defaults<mps_ship_motion, mps_ship_motion_init>;
 
-/** Numbers in memory of someone else. */
+/** A non-owning span of numbers. */
 template <class T> class span {
   public:
     span() = default;
@@ -97,7 +96,7 @@ template <class T> class span {
     std::size_t size_ = 0;
 };
 
-/** A place or a vector: 2 or 3 numbers, filled up with 0. */
+/** A point or a vector: 2 or 3 numbers, padded with 0. */
 struct point : std::array<double, 3> {
     point(std::initializer_list<double> values) : std::array<double, 3>{0, 0, 0}
     {
@@ -109,13 +108,13 @@ struct point : std::array<double, 3> {
 
 class simulation;
 
-/** What a probe, a lease or frames hold of their simulation, so that it is destroyed after them. */
+/** Shared ownership of a simulation by a probe, a lease or frames, so that it is destroyed after
+ *  them. */
 using keeper = std::shared_ptr<const void>;
 
 /** An array of particles, without a copy. T: double (all fields of numbers), const int32_t ("kind",
- *  "phase", "part", "region", "plate"), const int64_t ("id"). Const T: for reading. It holds the
- *  order of the particles until it is destroyed or end() is called; the span must not be used after
- *  that. */
+ *  "phase", "part", "region", "plate"), const int64_t ("id"). Const T: for reading. Particles are
+ *  not reordered until it is destroyed or end() is called; do not use the span after that. */
 template <class T> class lease {
   public:
     using value = std::remove_const_t<T>;
@@ -138,12 +137,12 @@ template <class T> class lease {
         std::swap(lease_, other.lease_);
         return *this;
     }
-    /** Ends the lease; what end() would complain about stays silent, and the lease open. */
+    /** Ends the lease; if end() would fail, the lease remains open without an exception. */
     ~lease()
     {
         if (sim_) mps_lease_end(sim_, &lease_);
     }
-    /** End the lease; fails where a written value is not finite, and the lease stays open. */
+    /** End the lease; fails if a written value is not finite, and the lease remains open then. */
     void end();
     /** All numbers, particle by particle; empty after end(). */
     span<T> values() const
@@ -152,7 +151,7 @@ template <class T> class lease {
     }
     /** The numbers of particle i. */
     span<T> operator[](std::size_t i) const { return {start() + i * stride(), stride()}; }
-    /** Particles. */
+    /** Number of particles. */
     std::size_t size() const noexcept { return static_cast<std::size_t>(lease_.count); }
     /** Numbers per particle. */
     std::size_t stride() const noexcept { return static_cast<std::size_t>(lease_.stride); }
@@ -180,11 +179,11 @@ class probe {
     {
     }
     int32_t id() const noexcept { return id_; }
-    /** Its values now. */
+    /** Current values. */
     std::vector<double> read() const;
-    /** What it is. */
+    /** Properties of the probe. */
     probe_info info() const;
-    /** Times and values [n * size] that its rate kept; valid until the next step. */
+    /** Times and values [n * size] of its samples; valid until the next step. */
     std::pair<span<const double>, span<const double>> series() const;
     /** Remove it. */
     void remove() const;
@@ -203,7 +202,7 @@ class frames {
         : keep_(std::move(keep)), sim_(sim), frames_(f)
     {
     }
-    /** Write the present state. */
+    /** Write the current state. */
     void write();
 
   private:
@@ -215,7 +214,7 @@ class frames {
     std::unique_ptr<mps_frames, close> frames_;
 };
 
-/** Throw what a call on a simulation failed with. */
+/** Throw the error of a failed call on a simulation. */
 inline mps_status check(const mps_sim *sim, mps_status status)
 {
     if (status < 0) throw error(status, sim ? mps_sim_error(sim) : "");
@@ -225,12 +224,12 @@ inline mps_status check(const mps_sim *sim, mps_status status)
 /** A simulation. */
 class simulation {
   public:
-    /** Function of the tank's motion: sets value, rate, accel at a time. */
+    /** Motion of the tank: sets value, rate, accel at a time. */
     using motion = std::function<void(double t, mps_motion_state &state)>;
-    /** Function of the load on a body beside liquid, weight and springs: sets force and moment, 6
-     *  numbers that arrive as 0. */
+    /** External load on a rigid body in addition to liquid, weight and springs: sets force and
+     *  moment, 6 numbers, 0 on entry. */
     using body_load = std::function<void(double t, const mps_motion_state &state, double *load)>;
-    /** Messages of the library. */
+    /** Receives messages of the library. */
     using logger = std::function<void(int level, const std::string &text)>;
 
     /** @param preset  NULL: "imps" @param log  empty: none */
@@ -248,9 +247,9 @@ class simulation {
     }
     ~simulation() { own(nullptr); }
 
-    /** For functions of C; NULL: it was moved from. */
+    /** For C functions; NULL: moved-from. */
     mps_sim *handle() const noexcept { return held_ ? held_->sim : nullptr; }
-    /** Throw what a function of C failed with, or what a callback threw. */
+    /** Throw the error of a C function, or the exception of a callback. */
     mps_status check(mps_status status) const { return in()(status); }
 
     int32_t dim() const;
@@ -270,8 +269,8 @@ class simulation {
     }
     double get(const char *slot, const char *key) const;
     void use(const char *model) { in()(mps_model_use(handle(), model)); }
-    /** Register a model of a plug-in and switch it on.
-     *  @param ops  its strings and tables live as long as the simulation */
+    /** Register a model of a plug-in and activate it.
+     *  @param ops  its strings and tables must be valid as long as the simulation */
     void use(const mps_model_ops &ops);
     void remove(const char *slot) { in()(mps_model_remove(handle(), slot)); }
     void solver(const char *name, const char *preconditioner = nullptr)
@@ -288,12 +287,12 @@ class simulation {
     {
         in()(mps_baffle_add(handle(), name, lo.data(), hi.data(), nullptr));
     }
-    /** A solid by its distance [m], double(const double *x), in the box of s.lo and s.hi. */
+    /** A solid by its signed distance [m], double(const double *x), in the box of s.lo and s.hi. */
     template <class F> void add(solid s, F distance);
     /** @return particles added, as all fills */
     int64_t fill_box(const point &lo, const point &hi, int32_t index = 0);
     int64_t fill_level(const point &lo, const point &hi, int32_t index = 0);
-    /** Fluid where bool(const double *x) is true. An exception in it leaves no fluid behind. */
+    /** Fluid where bool(const double *x) is true. If it throws, no fluid is added. */
     template <class F> int64_t fill(F inside, int32_t index = 0);
     /** @return ids of the new particles */
     std::vector<int64_t> add(const mps_particle_block &block);
@@ -309,7 +308,7 @@ class simulation {
     void move(const std::vector<mps_harmonic> &harmonics);
     void move(motion function);
     motion_state pose() const;
-    /** A body carries the tank. @param load  empty: that of b */
+    /** A rigid body carries the tank. @param load  empty: that of b */
     void carry(mps::body b, body_load load = {});
     /** The body in the last step. */
     mps::body_report body_report() const;
@@ -328,7 +327,7 @@ class simulation {
     step_info step(double dt_max);
     /** Step until t_end.
      *  @param monitor  of (simulation &, const mps_step_info &), after each step. It returns a bool
-     *                  or a number, of which true stops the run, as in C; or nothing
+     *                  or a number, where true stops the run, as in C; or void
      *  @return whether t_end was reached */
     template <class F> bool run(double t_end, F monitor);
     bool run(double t_end)
@@ -341,13 +340,13 @@ class simulation {
     void restore(const std::string &path) { in()(mps_checkpoint_read(handle(), path.c_str())); }
 
   private:
-    /* A function of the user, at a place of its own: the library has a pointer to it. */
+    /* A function of the user at a fixed address: the library has a pointer to it. */
     struct held;
     template <class F> struct bound {
         held *of;
         F function;
     };
-    /* The simulation of C and what it calls. Its object, its children and its calls share it. */
+    /* The C simulation and its callbacks. Shared by its object, its children and running calls. */
     struct held {
         explicit held(logger l) : log(std::move(l)) {}
         held(const held &) = delete;
@@ -360,7 +359,7 @@ class simulation {
         std::unique_ptr<bound<body_load>> load;
         std::exception_ptr failed;
     };
-    /* A call, in()(mps_...(handle())): in() is evaluated first, and keeps the simulation. */
+    /* A call, in()(mps_...(handle())): in() is evaluated first and shares the ownership. */
     struct call {
         std::shared_ptr<held> kept;
         mps_status operator()(mps_status status) const

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file mps_inline.hpp  Bodies of mps.hpp, which includes it. */
+/** @file mps_inline.hpp  Definitions of the functions of mps.hpp, which includes it. */
 #ifndef MPS_INLINE_HPP
 #define MPS_INLINE_HPP
 

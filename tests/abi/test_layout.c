@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
+/* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never
+ * change within a major version. */
 #include <mps/body.h>
 #include <mps/case.h>
 #include <mps/couple.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The set-ups of extreme values, and what happens in them beside steps. */
+/* The set-ups of extreme values, and their actions between steps. */
 #ifndef SETUPS_H
 #define SETUPS_H
 
@@ -28,13 +28,13 @@ typedef struct setup {
     int steps;
     void (*before)(mps_sim *sim);       /* after the set-up */
     void (*between)(mps_sim *sim, int); /* after step number k */
-    /* what must come of it */
+    /* expected result */
     mps_status status; /* MPS_OK: no failure */
     const char *text;  /* part of the error text */
     double speed;      /* largest speed over that of the set-up; 0: 3 */
 } setup;
 
-/* ---- what happens beside steps --------------------------------------------------------------------------------------- */
+/* ---- actions between steps --------------------------------------------------------------- */
 
 static inline void one_particle(mps_sim *sim)
 {
@@ -194,7 +194,7 @@ static inline void no_time(mps_sim *sim, int k)
     assert_true(t[0] == t[1]);
 }
 
-/* ---- the list -------------------------------------------------------------------------------------------------------- */
+/* ---- the list -------------------------------------------------------------------------------- */
 
 #define DOWN        \
     {               \

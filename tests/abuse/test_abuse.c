@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Set-ups of extreme values. Each must end in a given status, with a given text if it is refused, and within physical bounds: finite
- * fields, no fluid particle lost without notice, and no fluid faster than a multiple of the speed of the set-up. */
+/* Set-ups of extreme values. Each must end in a given status, with a given text if it is refused,
+ * and within physical bounds: finite fields, no fluid particle lost without notice, and no fluid
+ * faster than a multiple of the speed of the set-up. */
 #include "setups.h"
 
 static mps_sim *created; /* destroyed after each test, also a failed one */
@@ -14,7 +15,7 @@ static int clean(void **state)
     return 0;
 }
 
-/* ---- building -------------------------------------------------------------------------------------------------------- */
+/* ---- building -------------------------------------------------------------------------------- */
 
 static mps_status create(const setup *s)
 {
@@ -98,7 +99,7 @@ static mps_status build(const setup *s)
     return status;
 }
 
-/* ---- checks ---------------------------------------------------------------------------------------------------------- */
+/* ---- checks ---------------------------------------------------------------------------------- */
 
 static void check_finite(mps_sim *sim)
 {

@@ -96,7 +96,8 @@ def quick():
         "body.load={file: load.csv, columns: {surge: push}}", "-o", "b")
     a, b = (columns(f"{name}/probes.csv")["surge"][-1] for name in "ab")
     check(a != 0 and abs(b / a - 1) < 1e-4, f"table and harmonic: {b / a - 1:.1e}")
-    # a free tank: M + m0 + sum m_n/(1 - w^2/w_n^2) = 0 has w = 7.003 rad/s for M = 100 kg, 8.372 for 2 kg
+    # a free tank: M + m0 + sum m_n/(1 - w^2/w_n^2) = 0 has w = 7.003 rad/s for M = 100 kg, 8.372
+    # for 2 kg
     for mass, omega in ((100, 7.003), (2, 8.372)):
         said = run("check", "spring.yaml", "--set", "fill.water.depth=0.25 m", "--set", f"body={{mass: {mass} kg, surge: {{stiffness: 0.1 N/m}}}}",
                    text="with the moving liquid, by linear theory")

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What tests of case files share. */
+/* Common code of the tests of case files. */
 #ifndef MPS_TEST_CASE_KIT_H
 #define MPS_TEST_CASE_KIT_H
 
@@ -17,7 +17,7 @@
 
 #define CASES PROJECT_FOLDER "/tests/case/cases/"
 
-/* A name in the present folder as a whole path: names in a case are relative to its file. */
+/* A name in the current folder as an absolute path: names in a case are relative to its file. */
 static inline char *kit_here(char *out, size_t size, const char *name)
 {
     char folder[512];
@@ -44,7 +44,8 @@ static inline char *kit_messages(const mps_case *c)
     return text;
 }
 
-/* Whether there is a message with this place that has all words of `words`, "a|b"; line 0: any place. */
+/* Whether a message at this line and column contains all words of `words`, "a|b"; line 0: any
+ * position. */
 static inline bool kit_has(const mps_case *c, int32_t line, int32_t column, const char *words)
 {
     for (int32_t i = 0; i < mps_case_message_count(c); i++) {
@@ -64,7 +65,7 @@ static inline bool kit_has(const mps_case *c, int32_t line, int32_t column, cons
     return false;
 }
 
-/* The text must be refused at this place with these words. */
+/* The text must be refused at this position with these words. */
 static inline void kit_refused(const char *text, int32_t line, int32_t column, const char *words)
 {
     mps_case *c = NULL;

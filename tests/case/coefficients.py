@@ -80,7 +80,7 @@ def quick():
     run("coefficients", "box.yaml", *few, "-o", "out", text="is done already")
     os.mkdir("o'clock")  # the tilt of a turn has its table there
     run("coefficients", "box.yaml", "--degrees", "roll", "--period", "0.3 s", "--periods", "1", "-j", "1", "-q", "-o", "o'clock/out", text="; C -")
-    # without a run, here that of the first period, the other one's row stays
+    # without a run, here that of the first period, the row of the other one remains
     with open("out/001/trace.csv", encoding="ascii") as whole:
         kept = whole.read()
     with open("out/001/trace.csv", "w", encoding="ascii") as cut:

@@ -12,7 +12,7 @@
 
 enum { TEXT_SIZE = 1 << 20, SAID_SIZE = 1 << 14 };
 
-/* All that a job said. */
+/* All messages of a job. */
 static char said[SAID_SIZE];
 
 static inline void listen(void *user, int32_t kind, const char *text)
@@ -84,7 +84,7 @@ static inline mps_sim *water(void)
     return sim;
 }
 
-/* A file as text; "" if there is none. */
+/* A file as text; "" if it does not exist. */
 static inline char *text_of(const char *folder, const char *name)
 {
     static char text[TEXT_SIZE];

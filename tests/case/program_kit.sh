@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by tests of the program mps: a folder of their own, failures, expectations. It changes into the folder $work.
+# Sourced by tests of the program mps: a separate folder, failures, expectations. It changes to the
+# folder $work.
 export LC_ALL=C # awk, printf and sort take numbers with a point
 unset OMPI_COMM_WORLD_SIZE PMI_SIZE OMPI_COMM_WORLD_RANK PMI_RANK
 work=$(mktemp -d)

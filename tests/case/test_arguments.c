@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arguments that functions of jobs refuse, messages that a job passes on, and progress on a terminal. */
+/* Arguments that functions of jobs refuse, messages that a job passes on, and progress on a
+ * terminal. */
 #define _XOPEN_SOURCE 700 /* pseudo terminals */
 #include "job_fixture.h"
 #include "progress.h"
@@ -165,7 +166,7 @@ static void means_over_a_window(void **state)
     const char *summary = text_of("window", "summary.json"),
                *at = strstr(summary, "\n  \"most\": ");
     assert_non_null(at);
-    ASSERT_NEAR(strtod(at + 11, NULL), 0.045, 0.004); /* a value holds over its step */
+    ASSERT_NEAR(strtod(at + 11, NULL), 0.045, 0.004); /* a value is constant over its step */
     assert_non_null(strstr(summary, "means over 0.01 s"));
     mps_sim_destroy(sim);
     mps_job_destroy(job);

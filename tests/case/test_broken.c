@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Broken cases, made from good ones that have all keys: each key misspelled and given twice, each value with a wrong unit, out of its range and of
- * a wrong kind. Each must be refused at its place, with words that help. */
+/* Invalid cases, made from valid ones that have all keys: each key misspelled and duplicated, each
+ * value with a wrong unit, out of its range and of a wrong type. Each must be refused at its
+ * position, with a helpful message. */
 #include "case_kit.h"
 #include "units.h"
 
@@ -140,7 +141,7 @@ static void break_all(const char *text, const tree_node *node, bool *seen)
             if (setting) refused(text, n, false, "3 kg", "is the unit of a mass");
             if (setting) refused(text, n, true, "gas.soubd: 3", "did you mean");
             if (!setting) break_value(text, n);
-            /* the first of a list of maps stands behind its dash */
+            /* the first of a list of maps is after its dash */
             if (n->parent->parent && n->parent->parent->kind == TREE_LIST && n->parent->first == n)
                 continue;
             give_twice(text, n);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cases without memory: malloc() fails at its k-th call, for k = 1, 2, ..., while a case is built. Each failure is a status, and the case of a
- * further try is whole. Left out where a sanitizer has a malloc() of its own. */
+/* Cases without memory: malloc() fails at its k-th call, for k = 1, 2, ..., while a case is built.
+ * Each failure is a status, and the next attempt gives a complete case. Skipped if a sanitizer has
+ * its own malloc(). */
 #include "case_kit.h"
 #include <mps/mps.h>
 #include <unistd.h>
@@ -92,7 +93,8 @@ static mps_status try_check(mps_case *c, const char *folder)
     return status;
 }
 
-/* Every call up to the 300th, then each thirteenth: there the library's own arrays grow, which its tests look at. */
+/* Every call up to the 300th, then each thirteenth: there arrays of the library grow, which are
+ * covered by its own tests. */
 static void starve(mps_status (*attempt)(mps_case *, const char *))
 {
     char folder[] = "mps_oom_XXXXXX", command[64];

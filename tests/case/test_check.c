@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What 'mps check' tells about a case that is valid, and what a person would otherwise find only after the run. */
+/* Output of 'mps check' for a valid case: facts that a user would otherwise find only after the
+ * run. */
 #include "case_kit.h"
 #include <fcntl.h>
 #include <math.h>
@@ -61,7 +62,7 @@ static void volumes(void **state)
           "of 15 m2 asked for", "mps_");
 }
 
-/* Of a file, what it encloses: a wrong unit or axis is seen there. */
+/* The enclosed volume of a file: it reveals a wrong unit or axis. */
 static void files(void **state)
 {
     (void)state;
@@ -94,7 +95,8 @@ static void plates(void **state)
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 3 m]}\n" END, NULL, divides);
 }
 
-/* A box off the lattice keeps its size; a thin one and a plate go to the nearest planes of the lattice. */
+/* A box off the lattice keeps its size; a thin one and a plate go to the nearest planes of the
+ * lattice. */
 static void as_built(void **state)
 {
 #define SMALL \
@@ -128,7 +130,7 @@ static void sensors(void **state)
     tells(TANK "sensors: {P: {wall: 0 3 m, normal: 1 0}}\n" END, "P: wall pressure", "chooses");
 }
 
-/* Columns that are made of several probes, or in axes of the ship, are told too. */
+/* Columns made of several probes, or in axes of the ship, are listed too. */
 static void columns(void **state)
 {
     static const char space[] =
@@ -141,7 +143,7 @@ static void columns(void **state)
           "P: Largest wall pressure: of the sensors of a row", NULL);
 }
 
-/* A moment is no force: it is about an axis through a place. */
+/* A moment is no force: it is about an axis through a point. */
 static void forces(void **state)
 {
     static const char space[] =
@@ -158,7 +160,7 @@ static void forces(void **state)
     tells(space, "F_mz: moment about z through (10, 3, 8) m", NULL);
 }
 
-/* A column of a motion that has another name is left out: that must not stay unseen. */
+/* A column of a motion with another name is ignored: this must be reported. */
 static void motions(void **state)
 {
     static const char table[] = "time[s],heave[m],PHI[deg]\n0,0,0\n1,1,1\n2,0,0\n";
@@ -173,7 +175,7 @@ static void motions(void **state)
     tells(text, "; not used: PHI", "roll: at most");
     tells(text, "warning: ", NULL);
     tells(text, "columns that are no motion: PHI; 'columns' says what they are", NULL);
-    /* chosen on purpose: no warning, but told */
+    /* set explicitly: no warning, but listed */
     snprintf(text, sizeof text, TANK "motion: {file: %s, columns: {heave: heave}}\n" END, path);
     tells(text, "; not used: PHI", "no motion");
     snprintf(text, sizeof text, TANK "motion: {file: %s, columns: {heave: heave, roll: PHI}}\n" END,
@@ -229,7 +231,8 @@ static void rates(void **state)
           NULL);
 }
 
-/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a fall through it. */
+/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a
+ * fall through it. */
 static void costs(void **state)
 {
     (void)state;
@@ -316,7 +319,8 @@ static char *drawn(const char *case_text)
     return sketch;
 }
 
-/* The line of a gauge ends at the chamfer, 4 m above its begin at (0.5, 2.5) m; 560 units are 20 m and four spacings. */
+/* The line of a gauge ends at the chamfer, 4 m above its begin at (0.5, 2.5) m; 560 units are 20 m
+ * and four spacings. */
 static void drawings(void **state)
 {
     (void)state;
@@ -334,7 +338,7 @@ static void drawings(void **state)
     assert_non_null(strstr(svg, ">centre</text>"));
     assert_null(strstr(svg, "section through"));
     free(svg);
-    /* a centre beside the picture is told in words alone */
+    /* a centre outside of the picture is described in words only */
     svg = drawn(TANK "motion: {centre: 10 -9 m, roll: {amplitude: 1 deg, period: 5 s}}\n" END);
     assert_non_null(strstr(svg, "centre of rotation: x 10 m, y -9 m"));
     assert_null(strstr(svg, ">centre</text>"));

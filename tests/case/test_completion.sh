@@ -1,6 +1,6 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Completion of mps in bash: what a user gets who presses the tabulator key.
+# Completion of mps in bash: result of the tabulator key.
 # usage: test_completion.sh PROGRAM COMPLETION
 program=$1
 export LC_ALL=C
@@ -90,7 +90,7 @@ for key in $("$program" list keys | sed -n 's/^\([a-z_.]*\)\( (required)\)\?$/\1
     answers mps run x.yaml --set "$key" | grep -qxE -- "${key//./\\.}[.=]" || fail "$key is not completed"
 done
 
-# a shell loads it as it would from share/bash-completion
+# a shell loads it as from share/bash-completion
 bash -c '. "$1" && complete -p mps' - "$2" | grep -q -- '-F _mps mps' || fail "not registered"
 
 [ $failed -eq 0 ] && echo "completion knows the verbs, options, keys and files of mps"

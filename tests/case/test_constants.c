@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constants of the statistics set by texts, "impacts.threshold=6 kPa", as `mps stats --set` does; the list of all of them; rounded quantities. */
+/* Constants of the statistics set by texts, "impacts.threshold=6 kPa", as in `mps stats --set`; the
+ * list of all constants; rounded quantities. */
 #include "case_kit.h"
 #include <math.h>
 #include <mps/stats.h>
@@ -21,7 +22,7 @@ static mps_stats_config fresh(void)
     return c;
 }
 
-/* The value of a key after a text; all other constants are as before. */
+/* The value of a key after a text; all other constants are unchanged. */
 static double after(mps_stats_config *c, const char *text, const char *key)
 {
     const mps_stats_config before = *c;
@@ -38,7 +39,8 @@ static double after(mps_stats_config *c, const char *text, const char *key)
     return value;
 }
 
-/* Each key of `impacts` in the table of keys can be set, with its example, and each has its constant. */
+/* Each key of `impacts` in the table of keys can be set, with its example, and each has its
+ * constant. */
 static void every_key(void **state)
 {
     int found = 0;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Corners of what cases, jobs and measures take: the last of several conditions, and arguments that are wrong. */
+/* Corner cases of arguments of cases, jobs and measures: the last of several conditions, and
+ * invalid arguments. */
 #include "body.h"
 #include "build_kit.h"
 #include "job_fixture.h"
@@ -31,7 +32,7 @@ static void numbers(void **state)
     kit_refused(TOP "tank: {size: 1 1e.5 m}\n" WATER END, 3, 14, "tank.size");
 }
 
-/* Of several names that are near the nearest is told. */
+/* Of several similar names the nearest is suggested. */
 static void nearest_fluid(void **state)
 {
     static const char one[] = "{density: 900 kg/m3, viscosity: 1 mPa s}";
@@ -89,7 +90,7 @@ static void no_tables(void **state)
     }
 }
 
-/* ---- what a check tells */
+/* ---- output of a check */
 
 static char *told(const char *case_text)
 {
@@ -110,7 +111,8 @@ static void tells(const char *case_text, const char *wanted)
     free(text);
 }
 
-/* Solids in the surface stand in the order of their places; what does not reach from side to side divides nothing. */
+/* Solids in the surface are ordered by position; a solid that does not extend from side to side
+ * divides nothing. */
 static void solids_in_the_surface(void **state)
 {
     (void)state;
@@ -144,7 +146,7 @@ static void part_of_a_spectrum(void **state)
     built_refused(text, 13, "more than 6000 harmonics");
 }
 
-/* ---- bodies */
+/* ---- rigid bodies */
 
 #define BODY2 TANK WATER "body: {forward: z, "
 #define BODY3                                                                             \
@@ -182,7 +184,7 @@ static void wrong_bodies(void **state)
              "N}}}\n" END,
              path);
     built_refused(text, 5, "body.load: roll is not free; give 'body.roll'");
-    /* between rows the load is linear, before and behind them as there */
+    /* between rows the load is linear, before and after them constant */
     built t;
     snprintf(text, sizeof text,
              BODY2
@@ -201,7 +203,8 @@ static void wrong_bodies(void **state)
     remove(path);
 }
 
-/* The liquid as if frozen, of which a check tells the periods with it: in a chamfered tank by its particles. */
+/* The liquid as a rigid mass, with which a check reports the periods: in a chamfered tank by its
+ * particles. */
 static void frozen_liquid(void **state)
 {
     static const char *const tank[] = {"size: 1 0.6 m", "size: 1 0.6 m, chamfer: {top: 0.1 0.1 m}"};
@@ -242,7 +245,7 @@ static void solid_of_a_file(void **state)
 
 /* ---- jobs */
 
-/* What the options of a program ask for holds beside the case. */
+/* Options of a program apply in addition to the case. */
 static void options_of_a_job(void **state)
 {
     mps_case *c = NULL;
@@ -267,7 +270,8 @@ static void options_of_a_job(void **state)
     mps_case_destroy(c);
 }
 
-/* Measures that a simulation cannot have, and a box of which nothing is to the right of x = 0: it has cells all the same. */
+/* Measures that a simulation cannot have, and a box of which nothing is to the right of x = 0: it
+ * has cells all the same. */
 static void measures(void **state)
 {
     const double box[6] = {-0.5, 0, 0, -0.1, 0.4, 0};

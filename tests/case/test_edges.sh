@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Edges of tanks in 3-D, in summary.json: those of prisms and files, lines on cylinders and balls, none of boxes.
+# Edges of tanks in 3-D, in summary.json: those of prisms and files, lines on cylinders and balls,
+# none of boxes.
 # usage: test_edges.sh PROGRAM
 export LC_ALL=C # awk, printf and sort take numbers with a point
 program=$1
@@ -24,7 +25,8 @@ edges() {
     [ -s "$1/picture_end.png" ] || fail "$1: no picture"
 }
 edges box 0 0 '{size: 2 1.2 1 m}'
-# eight corners: two ends of 2 x 0.4 sqrt(2) + 2 x 0.2 sqrt(2) + 1.2 + 1.6 + 2 x 0.6, eight lines of 1 m
+# eight corners: two ends of 2 x 0.4 sqrt(2) + 2 x 0.2 sqrt(2) + 1.2 + 1.6 + 2 x 0.6, eight lines of
+# 1 m
 edges prism 24 19.394 '{size: 2 1.2 1 m, chamfer: {bottom: 0.2 0.2 m, top: 0.4 0.4 m}}'
 edges across 24 19.394 '{size: 1 1.2 2 m, chamfer: {bottom: 0.2 0.2 m, top: 0.4 0.4 m, across: z}}'
 # a corner of 11 degrees at (1, 1.1) is no edge across

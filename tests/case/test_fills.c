@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fills and bodies that cases build: volumes, motions and energies against exact values; what is refused. */
+/* Fills and rigid bodies of cases: volumes, motions and energies against exact values; refusals. */
 #include "build_kit.h"
 
 static mps_energy energy(const built *t)
@@ -22,7 +22,7 @@ static const char SPACE[] = "dim: 3\ndp: 40 mm\ntank: {size: 1.2 0.8 0.6 m}";
 
 typedef struct volume_case {
     const char *head, *rest;
-    double exact, most; /* largest error as a share */
+    double exact, most; /* largest relative error */
 } volume_case;
 
 static void check_volumes(const volume_case *v, size_t count)
@@ -37,7 +37,8 @@ static void check_volumes(const volume_case *v, size_t count)
     }
 }
 
-/* Each kind of fill has the volume of its shape, to half a spacing at free sides: 1.7 % of the wave's depth, 5 % of the box in 3-D. */
+/* Each kind of fill has the volume of its shape, to half a spacing at free sides: 1.7 % of the
+ * wave's depth, 5 % of the box in 3-D. */
 static void fills(void **state)
 {
     const double pi = acos(-1.0);
@@ -63,7 +64,7 @@ static void fills(void **state)
     check_volumes(v, sizeof v / sizeof *v);
 }
 
-/* Bodies displace their volume. */
+/* Solid bodies displace their volume. */
 static void bodies(void **state)
 {
     const double pi = acos(-1.0);
@@ -91,7 +92,7 @@ static void bodies(void **state)
     check_volumes(v, sizeof v / sizeof *v);
 }
 
-/* Largest error of the volume over some steps, as a share. */
+/* Largest relative error of the volume over several steps. */
 static double volume_error(const built *t, double exact, int steps)
 {
     double most = fabs(energy(t).volume_filled / exact - 1);
@@ -107,7 +108,8 @@ static double circle_below(double depth, double r)
     return r * r * acos(1 - depth / r) - (r - depth) * sqrt(depth * (2 * r - depth));
 }
 
-/* Liquid of few rows, at rest and in waves: walls above its surface are dry. As wet they would add 8 % in waves of the 3-D box, 2.5 % in 2-D. */
+/* Liquid of few rows, at rest and in waves: walls above its surface are dry. As wet they would add
+ * 8 % in waves of the 3-D box, 2.5 % in 2-D. */
 static void few_rows(void **state)
 {
 #define BOX   "tank: {size: 400 300 mm}"
@@ -164,7 +166,8 @@ static void two_fluids(void **state)
     built_free(&t);
 }
 
-/* A velocity at the start is that of all of the fluid. Its particles are 99 columns of 100 spacings: the half cells at walls are of the walls. */
+/* A velocity at the start is that of all of the fluid. Its particles are 99 columns of 100
+ * spacings: the half cells at walls are of the walls. */
 static void start_velocity(void **state)
 {
     built t;
@@ -197,7 +200,8 @@ static void standing_wave(void **state)
     built_free(&t);
 }
 
-/* The second mode of a drop in air: kinetic energy 3/2 pi sigma R a^2 of a share a, inside and outside together. */
+/* The second mode of a droplet in air with relative amplitude a: kinetic energy 3/2 pi sigma R a^2,
+ * inside and outside together. */
 static void oscillation(void **state)
 {
     built t;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Folders of runs: what cannot be one, what to do about it, and what --overwrite removes. */
+/* Folders of runs: invalid folders, the advice in messages, and files that --overwrite removes. */
 #include "job_fixture.h"
 #include "folder.h"
 #include <errno.h>
@@ -111,7 +111,7 @@ static void not_removed(void **state)
     }
 }
 
-/* The lock of a run on another machine, of which this system knows nothing. */
+/* The lock of a run on another machine, whose processes this system cannot query. */
 static void write_lock(const char *path, const char *text, long age)
 {
     const struct timespec times[2] = {{.tv_sec = time(NULL) - age}, {.tv_sec = time(NULL) - age}};
@@ -122,7 +122,8 @@ static void write_lock(const char *path, const char *text, long age)
     assert_int_equal(utimensat(AT_FDCWD, path, times, 0), 0);
 }
 
-/* Another machine holds its lock as long as it renews it; a lock of this machine that no process holds is left over. */
+/* Another machine owns its lock as long as it renews it; a lock of this machine without a process
+ * is stale. */
 static void locks_of_machines(void **state)
 {
     char host[200] = "", own[260], error[1000] = "";

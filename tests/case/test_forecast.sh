@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The memory that 'mps check' tells is that of the run, with its last picture and its page, within a factor of 1.2.
+# The memory estimate of 'mps check' is that of the run, with its last picture and report.html,
+# within a factor of 1.2.
 # usage: test_forecast.sh PROGRAM
 export LC_ALL=C # awk, printf and sort take numbers with a point
 program=$1

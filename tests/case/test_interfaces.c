@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Measures of the interface of a drop that rests in air without gravity: box and roundness of its outline, pressure inside. */
+/* Measures of the interface of a droplet at rest in air without gravity: box and roundness of its
+ * outline, pressure inside. */
 #include "job_fixture.h"
 #include <mps/case.h>
 

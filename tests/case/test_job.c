@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jobs through their public header: what is refused, what is written, stopping and going on. */
+/* Jobs through their public header: refusals, outputs, stop and resume. */
 #include "job_fixture.h"
 #include <sys/wait.h>
 #include <time.h>
@@ -147,7 +147,8 @@ static double now(void *user, mps_sim *sim)
     return t;
 }
 
-/* All that a page asks for stands in summary.json; files have decimal points whatever the language of the program. */
+/* summary.json contains all data that the page needs; files have decimal points in any locale of
+ * the program. */
 static void outputs_are_complete(void **state)
 {
     (void)state;
@@ -286,7 +287,8 @@ static void signals_stop_a_job(void **state)
         _exit(mps_job_run(job, water()) == MPS_EXIT_INTERRUPTED ? 42 : 1);
     }
     const struct timespec moment = {.tv_nsec = 5000000};
-    /* handlers are there before the first step, whose row is on the disk after many others */
+    /* handlers are installed before the first step, whose row is flushed to the disk after many
+     * others */
     while (!strchr(text_of("signalled", "probes.csv"), '\n')) nanosleep(&moment, NULL);
     int code;
     assert_int_equal(kill(other, SIGINT), 0);
@@ -335,7 +337,7 @@ static void traces_are_measured(void **state)
         snprintf(key, sizeof key, "\n  \"%s\": ", figures[k].name);
         const char *at = strstr(summary, key);
         assert_non_null(at);
-        /* a value holds over its step: means are late by half a step */
+        /* a value is constant over its step: means are delayed by half a step */
         ASSERT_NEAR(strtod(at + strlen(key), NULL), figures[k].wanted,
                     k == 0 ? 0 : 0.25 * figures[k].wanted);
     }
@@ -393,7 +395,8 @@ static void measures_are_listed(void **state)
     mps_job_destroy(job);
 }
 
-/* Values of measures of water in its lattice: 9 columns from 0.04 to 0.36 m, 5 rows from 0.04 to 0.2 m. */
+/* Values of measures of water in its lattice: 9 columns from 0.04 to 0.36 m, 5 rows from 0.04 to
+ * 0.2 m. */
 static void measures_are_right(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jobs without memory: malloc() fails at its k-th call, for k = 1, 2, ..., while a job is made, told its columns and its inputs. Each failure
- * is a status, and nothing is lost: the next try succeeds. Left out where a sanitizer has a malloc() of its own. */
+/* Jobs without memory: malloc() fails at its k-th call, for k = 1, 2, ..., while a job is created
+ * and its columns and inputs are added. Each failure is a status without side effects: the next
+ * attempt succeeds. Skipped if a sanitizer has its own malloc(). */
 #include "job_fixture.h"
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || !defined(__GLIBC__)
@@ -45,7 +46,7 @@ static double nothing(void *user, mps_sim *sim)
     return 0;
 }
 
-/* All that a program tells a job. @return the first failure */
+/* All calls of a program that define a job. @return the first failure */
 static mps_status tell(mps_job *job, mps_sim *sim)
 {
     static const double t[] = {0, 1};

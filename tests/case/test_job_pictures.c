@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pictures of a job: one scale of colours, which follows from the case alone, so that a run that was stopped has those of a whole one. */
+/* Pictures of a job: one colour scale that depends on the case only, so that an interrupted run has
+ * the pictures of an uninterrupted one. */
 #include "job_fixture.h"
 #include "../post/picture_fixture.h"
 
@@ -69,7 +70,7 @@ static void stops_change_no_picture(void **state)
     assert_non_null(strstr(text_of("whole", "summary.json"), "\"pressure_scale\": [0, 4500]"));
 }
 
-/* What a case says of its pressures, and the upper end of the scale. */
+/* Pressures of a case, and the upper end of the scale. */
 typedef struct colours {
     double gravity, speed, sigma, most;
 } colours;
@@ -115,7 +116,8 @@ static void check_scale(const char *folder, const colours *c)
                  found ? found : "nothing", wanted);
 }
 
-/* A block of 0.16 x 0.2 m: 1.25 rho g h = 2452.5 Pa; rho u^2; rho 9.81 h = 1962 Pa; 1.25 times sigma over half of its width. */
+/* A block of 0.16 x 0.2 m: 1.25 rho g h = 2452.5 Pa; rho u^2; rho 9.81 h = 1962 Pa; 1.25 times
+ * sigma over half of its width. */
 static void scale_follows_from_the_case(void **state)
 {
     (void)state;
@@ -138,7 +140,8 @@ static double summary_number(const char *folder, const char *key)
     return strtod(found + strlen(text), NULL);
 }
 
-/* Pixels that differ by more than rounding of single precision, which may shift the bar on the right by one. */
+/* Pixels that differ by more than rounding of single precision, which may shift the bar on the
+ * right by one. */
 static int count_others(const char *first, const char *second)
 {
     const sheet a = read_sheet(first), b = read_sheet(second);
@@ -152,7 +155,8 @@ static int count_others(const char *first, const char *second)
     return others;
 }
 
-/* A tank that begins displaced and turned: places, boxes and pictures are in its own frame, whether a picture shows the state or its frame. */
+/* An initially displaced and rotated tank: positions, boxes and pictures are in its own frame, for
+ * pictures of the state and of a frame. */
 static void displaced_tanks_keep_their_marks(void **state)
 {
     (void)state;

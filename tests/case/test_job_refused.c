@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a job refuses, member by member, and the limits of its texts. */
+/* Refusals of a job, member by member, and the limits of its texts. */
 #include "job_fixture.h"
 
 static void configs(void **state)
@@ -25,7 +25,7 @@ static void configs(void **state)
     c = good, c.ranks = &ranks, refused(&c, MPS_E_ARG, "mps_job_ranks_load()");
     ranks.count = 1, ranks.struct_size--;
     refused(&c, MPS_E_ARG, "mps_job_ranks_load()");
-    /* without room for a text there is the status alone */
+    /* without a buffer for a text there is only the status */
     mps_job *job = (mps_job *)&c;
     char error[4] = "abc";
     c = good, c.name = NULL, c.error = error, c.error_size = 0;

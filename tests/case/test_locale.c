@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An application whose locale has a decimal comma: each text that libmps and libmps_case read
- * or write is the one of the locale C. */
+/* An application whose locale has a decimal comma: all texts that libmps and libmps_case read or
+ * write are those of the locale C. */
 #include "build_kit.h"
 #include "locale_kit.h"
 #include <errno.h>
@@ -150,7 +150,7 @@ static void run_case(texts *t, const char *folder)
     for (size_t k = 0; k < sizeof files / sizeof *files; k++) keep_file(t, folder, files[k]);
 }
 
-/* Files of a folder that is the same in both locales. */
+/* Files that are equal in both locales. */
 static void of_folder(texts *t, const char *folder)
 {
     char error[600];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reading a case while memory runs out: malloc() and its like fail at the k-th call, for k = 1, 2, ... The call returns MPS_E_NOMEM and leaks nothing,
- * or, once k is beyond the last, the same case as ever. Left out where a sanitizer has a malloc() of its own. */
+/* Reading a case without memory: malloc(), calloc() and realloc() fail at the k-th call, for k = 1,
+ * 2, ... The call returns MPS_E_NOMEM and leaks nothing, or, if k is beyond the last call, the
+ * usual case. Skipped if a sanitizer has its own malloc(). */
 #include "case_kit.h"
 #include <errno.h>
 #include <mps/mps.h>
@@ -58,7 +59,8 @@ void free(void *block)
 }
 #endif
 
-/* A simulation is one call that may fail: SUNLogger_Create() of SUNDIALS 6 crashes where it gets no memory, see tests/oom/test_malloc.c. */
+/* A simulation is one call that may fail: SUNLogger_Create() of SUNDIALS 6 crashes where it gets no
+ * memory, see tests/oom/test_malloc.c. */
 mps_status __real_mps_sim_create(const mps_config *config, mps_sim **sim);
 mps_status __wrap_mps_sim_create(const mps_config *config, mps_sim **sim);
 void __real_mps_sim_destroy(mps_sim *sim);
@@ -102,7 +104,8 @@ static mps_status attempt(int64_t k, const char *path, const char *const *sets, 
     return status;
 }
 
-/* Each call fails in turn. A stream that gets no buffer works without, so the case may be read all the same. */
+/* Each call fails in turn. A stream works without a buffer, so the case may be read
+ * nevertheless. */
 static void in_turn(const char *path, const char *const *sets, int32_t count)
 {
     static char whole[1 << 16], text[1 << 16];

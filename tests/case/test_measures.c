@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the drivers measure on particles: interfaces, cavities, strays, on shapes cut from a lattice. */
+/* Measures of the drivers: interfaces, cavities, stray particles, on shapes cut from a lattice. */
 #include "../tags.h"
 #include "cloud.h"
 #include "cavity.h"
@@ -25,7 +25,8 @@ static int in_water(void *user, const double *x)
     return x[1] < 0.5 && !in_disc(user, x);
 }
 
-/* A closed box with what `inside` says of phase `phase`; the rest is of `rest`, if that is a phase. */
+/* A closed box with phase `phase` where `inside` returns true; elsewhere phase `rest`, if it is a
+ * phase. */
 static mps_sim *box_with(int32_t dim, mps_inside_fn inside, disc d, int32_t phase, int32_t rest)
 {
     const double lo[3] = {0};
@@ -97,7 +98,7 @@ static int under_a_line(void *user, const double *x)
     return x[1] < d->y + d->radius * x[0];
 }
 
-/* Straight lines from wall to wall, level ones exactly between the rows. */
+/* Straight lines from wall to wall, horizontal ones exactly between the rows. */
 static void line_is_straight(void **state)
 {
     (void)state;
@@ -141,7 +142,8 @@ static double cut_out(const disc *d)
     return (double)count * dp * dp;
 }
 
-/* A hole under the surface is measured, with gas in it or without; one that opens into the space above is none. */
+/* A hole under the surface is measured, with gas in it or without; one that opens into the space
+ * above is none. */
 static void cavity_is_measured(void **state)
 {
     (void)state;

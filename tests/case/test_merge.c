@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Files below files, values at paths, sweeps, pages, and the text of a case, which reads back to the same case. */
+/* Base files, values at paths, sweeps, pages, and the text of a case, which gives the same case
+ * when it is read again. */
 #include "case_kit.h"
 #include "read.h"
 #include <math.h>
@@ -137,7 +138,7 @@ static void wrong_sets(void **state)
     wrong_set("dp=&a 3 mm", "an anchor");
 }
 
-/* Another member of a group takes the place of the one before. */
+/* Another member of a group replaces the previous one. */
 static void groups(void **state)
 {
     static const char *const set[] = {"motion.roll.omega=2 rad/s", "fill.water.box=[0 0 m, 1 1 m]",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Messages: all at once, in the order of their places, as a compiler prints them; keys that are near; rules between keys. */
+/* Messages: all at once, ordered by position, in the format of a compiler; similar keys; rules
+ * between keys. */
 #include "case_kit.h"
 
 #define HEAD "mps: 1\ndp: 4 mm\n"
@@ -49,7 +50,7 @@ static void printed(void **state)
     mps_case_destroy(c);
 }
 
-/* Columns count characters, and a long line is cut about its place. */
+/* Columns count characters, and a long line is truncated around its position. */
 static void columns(void **state)
 {
     char text[2000];

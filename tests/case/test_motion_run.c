@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the run makes of a motion: its largest values, how it begins, filtered tables, columns by
- * the names of a ship. */
+/* Motions in a run: their largest values, their beginning, filtered tables, columns with the names
+ * of a ship. */
 #include "build_kit.h"
 #include <unistd.h>
 
@@ -88,8 +88,8 @@ static void tables(void **state)
     built_free(&t);
 }
 
-/* Three angles in an unusual order, of a ship across the tank: the largest values are those that
- * were asked for. */
+/* Three angles in an unusual order, of a ship across the tank: the largest values are the requested
+ * ones. */
 static void orders(void **state)
 {
     static const char *const name[] = {"surge", "roll", "pitch", "yaw"};
@@ -233,7 +233,7 @@ static double coarse(double t)
     return 1e-4 * round(smooth(t) / 1e-4);
 }
 
-/* Rows of 0.1 mm in 1 ms: accelerations of 100 m/s2 are reported, and the filter leaves those of the
+/* Rows of 0.1 mm in 1 ms: accelerations of 100 m/s2 are reported, and the filter keeps those of the
  * motion. */
 static void resolution(void **state)
 {
@@ -330,8 +330,8 @@ static double column_of(mps_job *job, mps_sim *sim, const char *name, const char
     return value;
 }
 
-/* Each degree that is used, and no other, as the user gave it: a heading of more than a turn,
- * bow across the tank, an unusual order. */
+/* Each degree of freedom that is used, and no other, with the values of the user: a heading of more
+ * than 360 degrees, bow across the tank, an unusual order. */
 static void columns(void **state)
 {
     static const struct {

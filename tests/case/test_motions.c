@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motions that cases describe in a ship's words, against matrices. */
+/* Motions of cases with the degrees of freedom of a ship, against matrices. */
 #include "build_kit.h"
 #include <unistd.h>
 
@@ -19,7 +19,8 @@ static void rotation(const double *axis, double angle, double *r)
             r[3 * i + j] = (i == j ? c : 0) + s * cross[3 * i + j] + (1 - c) * u[i] * u[j];
 }
 
-/* Roll, pitch, yaw of a matrix in the ship's own axes, x forward, y port, z up: R = Rz(yaw) Ry(pitch) Rx(roll). */
+/* Roll, pitch, yaw of a matrix in the ship's own axes, x forward, y port, z up: R = Rz(yaw)
+ * Ry(pitch) Rx(roll). */
 static void angles(const double *r, double *roll, double *pitch, double *yaw)
 {
     *pitch = asin(-r[6]);
@@ -93,7 +94,8 @@ static void skew_axis(void **state)
     unlink(path);
 }
 
-/* A harmonic of one degree, seen as a displacement of the lab at a quarter of its period, by a callback or by harmonics. */
+/* A harmonic of one degree, seen as a displacement of the lab at a quarter of its period, by a
+ * callback or by harmonics. */
 static void degrees_of_freedom(void **state)
 {
     static const struct {
@@ -132,7 +134,8 @@ static void degrees_of_freedom(void **state)
 
 #define PLANE "mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\n"
 
-/* In 2-D: what the same degree does in 3-D, as a section along the ship or across it; without `forward` surge is along x too. */
+/* In 2-D: what the same degree does in 3-D, as a section along the ship or across it; without
+ * `forward` surge is along x too. */
 static void degrees_of_the_plane(void **state)
 {
     static const struct {
@@ -171,7 +174,8 @@ static void degrees_of_the_plane(void **state)
     }
 }
 
-/* Roll and pitch together with the bow along z: no sum of harmonics of the lab. R = T(e2, pitch) T(e1, roll), e1 = z, e2 = x. */
+/* Roll and pitch together with the bow along z: no sum of harmonics of the lab. R = T(e2, pitch)
+ * T(e1, roll), e1 = z, e2 = x. */
 static void two_rotations(void **state)
 {
     const double roll = 0.3, pitch = 0.2, z[3] = {0, 0, 1}, x[3] = {1, 0, 0};
@@ -203,8 +207,8 @@ static void two_rotations(void **state)
 
 /* ---- spectra ---- */
 
-/* Variance over many periods is (significant/2)^2 within its sampling band, and its rate of zero crossings that of the band; the same seed gives
- * the same bytes, another one others. */
+/* Variance over many periods is (significant/2)^2 within its sampling band, and its rate of zero
+ * crossings that of the band; the same seed gives the same bytes, another one others. */
 static void spectrum(void **state)
 {
     double first[2] = {0}, before[2] = {0};

@@ -74,8 +74,8 @@ static int compare(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* The five highest, whatever their order is, have frames within a fraction of their rise; others
- * have none. */
+/* The five highest peaks, in any order, have frames within a fraction of their rise; others have
+ * none. */
 static void highest_have_frames(void **state)
 {
     static series s;
@@ -100,8 +100,8 @@ static void highest_have_frames(void **state)
     assert_in_range(s.written, s.count, 400);         /* of 6000 steps */
 }
 
-/* A run that goes on at any row has the same frames: those of the rows before come from the
- * rows. */
+/* A run that is resumed at any row has the same frames: frames of earlier rows are determined from
+ * the rows. */
 static void goes_on_anywhere(void **state)
 {
     static series whole, part;

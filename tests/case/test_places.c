@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Places have one frame, that of the case; lengths do not depend on where the tank is; mps
- * check and a run agree on what a case needs. */
+/* All positions are in the frame of the case; lengths do not depend on the position of the tank;
+ * mps check and a run agree on the required keys. */
 #include "build_kit.h"
 #include <mps/job.h>
 
@@ -102,7 +102,7 @@ static void shifted(void **state)
         char *all = check(text);
         for (int i = 0; i < 4; i++) {
             line_of(all, words[i], now);
-            now[strcspn(now, "(,")] = '\0'; /* behind it are places and rounding */
+            now[strcspn(now, "(,")] = '\0'; /* positions and rounding follow it */
             if (k == 0) memcpy(first[i], now, sizeof now);
             assert_string_equal(now, first[i]);
         }
@@ -142,7 +142,8 @@ static mps_status job_of(mps_case *c)
     return status;
 }
 
-/* Without each of its lines, a case is refused by the check at a place, or it can be run. */
+/* If any of its lines is removed, a case is refused by the check with a position, or it can be
+ * run. */
 static void left_out(void **state)
 {
     static const char *const cases[] = {
@@ -249,7 +250,7 @@ static void words(void **state)
     free(all);
     free(sketch);
     mps_case_destroy(c);
-    /* characters that YAML takes for line breaks come back */
+    /* characters that YAML regards as line breaks are preserved */
     assert_int_equal(kit_read(TOP FILL "title: \"a\\x85"
                                        "b\\u2028c\\u009fd\"\n" END,
                               NULL, &c),

@@ -17,7 +17,7 @@ expect 2 "needs a value" "$program" run x.yaml --set
 expect 2 "1 to 1024" "$program" run x.yaml -j many
 expect 2 "no.yaml" "$program" run no.yaml
 
-# a device is refused by name, or says what it lacks
+# a device is refused by name, or with the missing part
 printf 'mps: 1\ndp: 50 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.2 m}}]\nrun: {until: 10 ms}\n' > small.yaml
 expect 2 "must be cuda, or cuda:N" "$program" run small.yaml --device gpu
 expect 2 "must be cuda, or cuda:N" "$program" run small.yaml --device cuda:x
@@ -52,7 +52,8 @@ for name in tank lng roll ship; do
 done
 "$program" check tank.yaml | grep -q "T1 1.41[78] s" || fail "T1 of 1 m, 0.24 m"
 "$program" check tank.yaml --set fill.water.depth=50% | grep -q "T1 1.319 s" || fail "T1 of 1 m, 0.3 m"
-# T1 leaves out solids: those that stand in the surface are named, with the period of 0.6 m; those below it are not
+# T1 ignores solids: those that cross the surface are named, with the period of 0.6 m; those below
+# it are not
 expect 0 "without the solids" "$program" check tank.yaml --set "dp=20 mm" --set "solids={high: {plate: [0.4 0 m, 0.4 0.4 m]}, low: {plate: [0.7 0 m, 0.7 0.1 m]}}"
 grep -q "^surface *solid 'high' stands in it, x = 0.4 m$" log || fail "surface: $(cat log)"
 grep -q "the longest open stretch, 0.6 m, is 0.9508 s" log || fail "open stretch: $(cat log)"
@@ -63,7 +64,7 @@ expect 0 "x = 0.4 .. 0.5 m, not from side to side" "$program" check tank.yaml --
     --set "solids={post: {box: [0.4 0 0.2 m, 0.5 0.4 0.3 m]}}"
 grep -q "open stretch" log && fail "a post closes no surface"
 expect 0 "without the fluid above" "$program" check tank.yaml --set "dp=50 mm" --set "fill=[{water: {depth: 40 %}}, {air: rest}]" --set "model=mmps"
-# dp as asked for, as built, and cells
+# requested dp, built dp, and cells
 expect 0 "dp 20 mm asked for, 19.9 mm built in cells of 19.8 mm x 20 mm," "$program" check tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m"
 expect 0 "2-D, dp 20 mm, gravity" "$program" check tank.yaml --set "dp=20 mm"
 expect 0 "dp 0.0199017 m (0.02 m asked for, cells 0.0198039 x 0.02 m)," "$program" run tank.yaml --set "dp=20 mm" --set "tank.size=1.01 0.6 m" \
@@ -130,7 +131,8 @@ grep -q "1 left out at the ends" log || fail "stats: the first pulse is not told
 grep -q "P2" log && fail "stats of one column has another"
 grep -q "(by deviations: set impacts.threshold)" log || fail "stats: not told that the threshold is a guess"
 expect 0 "P2: no pressure from 0.21 s to 41 s: no liquid came here" "$program" stats bare P2
-# another threshold without another run: half of the pulses are above 1475 Pa; the page has it too, and says so
+# another threshold without another run: half of the pulses are above 1475 Pa; the page uses it too,
+# and states this
 expect 0 "constants by --set: impacts.threshold 1.48 kPa, impacts.window 0.1 s" "$program" stats pulses P1 --set "impacts.threshold=1.48 kPa" -s "impacts.window=0.1 T1"
 grep -q "P1: 20 events" log && grep -q "^constants of the run in pulses: .*impacts.threshold 100 Pa" log && ! grep -q "edit of case" log || fail "stats --set: $(head -5 log)"
 [ "$(wc -l < pulses/statistics.csv)" -eq 21 ] || fail "statistics.csv with another threshold"
@@ -155,7 +157,8 @@ expect 2 "is no pressure" "$program" stats run eta_left
 expect 2 "no such folder" "$program" stats nowhere
 expect 2 "is no folder" "$program" stats pulses/probes.csv
 
-# compare: a sine of 1 s that is 0.1 s later differs by -2 sin(0.1 pi) cos(2 pi (t - 0.05)): rms from 0.205 to 41 s, of straight lines
+# compare: a sine of 1 s that is 0.1 s later differs by -2 sin(0.1 pi) cos(2 pi (t - 0.05)): rms
+# from 0.205 to 41 s, of straight lines
 expect 0 "shifted against pulses" "$program" compare pulses shifted pulses/probes.csv
 awk '/^  eta/ { n++; ok += $3 == "m" && $15 == "s" && $18 == "deg" && (n == 2 ? $2 == 0 && $14 == 0 : $2 == 0.436 && $14 == 0.1 && $17 == 36) }
     END { exit !(n == 3 && ok == 3) }' log || fail "compare: $(grep eta log)"
@@ -223,7 +226,8 @@ expect 0 "" "$program" resume cut --set "run.until=$end s" -q
 expect 0 "" "$program" run tank.yaml --set "run.until=$end s" --set output.frames=0 -o whole -q
 cmp cut/probes.csv whole/probes.csv || fail "a continued run has other bytes"
 
-# paraview.py asks ParaView for the arrays of the frames, their times, spheres of dp and the scale of the pictures; the camera shows the tank
+# paraview.py asks ParaView for the arrays of the frames, their times, spheres of dp and the scale
+# of the pictures; the camera shows the tank
 if command -v python3 > /dev/null; then
     here=$(dirname "$script")
     expect 0 "" python3 "$here/check_paraview.py" run
@@ -304,7 +308,8 @@ expect 2 "run of another case" "$program" sweep sweep.yaml --set "run.until=0.06
 sed 's/^sweep.*/sweep: {motion.surge.amplitude: 1e-6 5 m}/' sweep.yaml > bad.yaml
 expect 3 "bad/002 failed, exit code 3" "$program" sweep bad.yaml --set "run.dt=20 ms" --set "run.until=0.6 s" -o bad -q
 grep -q "^002,5 m,5,3,nan,nan" bad/sweep.csv || fail "sweep.csv of a failed run: $(cat bad/sweep.csv)"
-# the last 20 steps share what is left of a run; before, they have the factor. Where whole cells leave one dp, the runs differ by their steps: each motion, fixed steps and none
+# the last 20 steps divide the rest of a run; earlier steps have the factor. If whole cells give one
+# dp, the runs differ in their steps: each motion, fixed steps and none
 repeated() {
     expect 0 "" "$program" repeat $1.yaml --set "run.until=0.2 s" -n 3 -o $1 -q
     grep -q "^varied: time steps by +-0.5 %, dp as built [0-9.]* mm in all runs, whose cells fill the tank$" log || fail "repeat: $(cat log)"
@@ -358,7 +363,7 @@ awk -F, 'function rounded(v, unit) { return sprintf("%.3g", unit == "kPa" ? v / 
     printed converged/converge.csv || fail "converge.csv is not as printed: $(cat printed) $(grep ^P_left converged/converge.csv)"
 grep -q "^dp: 40 mm" converged/001/case.yaml && grep -q "^dp: 20 mm" converged/003/case.yaml || fail "dp of converge"
 
-# a sweep that is interrupted stops, and goes on
+# an interrupted sweep stops, and can be resumed
 long=(--set "run.until=3 s" --set "motion.surge.amplitude=10 mm")
 "$program" sweep sweep.yaml "${long[@]}" -o half > log 2>&1 &
 pid=$!

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Jobs on ranks that are threads: the files of a run are those of one rank, and all ranks end with the same code. */
+/* Jobs on ranks that are threads: the files of a run are those of one rank, and all ranks end with
+ * the same code. */
 #include "job_fixture.h"
 #include "kit_engine.h"
 #include <mps/case.h>
@@ -101,7 +102,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_case_destroy(c);
 }
 
-/* @param leaves  code of the last rank where it ends at once; -1: it runs as the others do */
+/* @param leaves  code of the last rank if it ends at once; -1: it runs like the others */
 static void run(scene *s, int32_t ranks, int32_t leaves)
 {
     kit_engine_team *team = kit_engine_create(ranks, 0);
@@ -169,7 +170,7 @@ static void ranks_go_on(void **state)
     same_tables("further", "first");
 }
 
-/* A rank that leaves ends all of them, and its code is that of all. */
+/* A rank that ends terminates all ranks, with its exit code. */
 static void one_leaves(void **state)
 {
     scene s = {.folder = "left"};
@@ -181,7 +182,7 @@ static void one_leaves(void **state)
     assert_false(is_there("left", "run.lock"));
 }
 
-/* The folder is refused on rank 0, of which all hear. */
+/* The folder is refused on rank 0, and all ranks are notified. */
 static void one_is_refused(void **state)
 {
     scene s = {.folder = "one"};
@@ -235,7 +236,7 @@ static void leaving(void **state)
     }
 }
 
-/* The module is looked for beside the program. */
+/* The module is searched in the folder of the program. */
 static void modules_are_loaded(void **state)
 {
     mps_job_ranks ranks;

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# References and figures of a case, in summary.json: tables by columns and units, shifted; a value between two times, divided.
+# References and figures of a case, in summary.json: tables by columns and units, shifted; a value
+# between two times, divided.
 # usage: test_references.sh PROGRAM
 export LC_ALL=C # awk, printf and sort take numbers with a point
 program=$1
@@ -57,7 +58,8 @@ refused 's/\[time, p\]/[time, q]/' "'q' is no column of"
 refused 's/known.csv/none.csv/' 'none.csv'
 refused 's/column: P1, take: least/column: P2, take: least/' 'P2'
 refused 's/times: 0.1 0.2 s/times: 0.2 0.2 s/' 'bad.yaml:9:15: error: the time 0.2 s is not later than that before it, 0.2 s'
-# a table of times that go back, or stand still, in a run and in a check, in the file's order and with its line
+# a table of times that decrease or repeat, in a run and in a check, in the file's order and with
+# its line
 printf 'time[ms],other[m],p[hPa]\n# measured\n0,1,10\n250,2,20\n200,2,20\n300,2,20\n' > back.csv
 printf 'time[ms],other[m],p[hPa]\n0,1,10\n250,2,20\n250,2,30\n' > still.csv
 refused 's/known.csv/back.csv/' 'back.csv:5: the time 0.2 s is not later than that before it, 0.25 s'

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What cannot be built becomes a message at the line of the object. */
+/* An object that cannot be built gives a message at its line. */
 #include "build_kit.h"
 #include <unistd.h>
 
@@ -46,7 +46,7 @@ static void objects(void **state)
                   "ball: ");
 }
 
-/* Sides that cross, touch or lie on each other, in tanks, solids and fills. */
+/* Sides that cross, touch or coincide, in tanks, solids and fills. */
 static void crossed_polygons(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static void sensors(void **state)
                    5, "'motion.order' has no effect here");
 }
 
-/* What sensors of many places refuse. */
+/* Refusals of sensors with many positions. */
 static void rows_of_sensors(void **state)
 {
 #define DEEP_SENSOR SPACE "sensors:\n  P: "

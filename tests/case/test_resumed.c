@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs of a case that stop or are killed at random places, by a seed, and go on: the folder is that of a run without a stop, byte by byte. A
- * process kills itself at a step, or before its n-th operation on a file: no test waits for a clock. */
+/* Runs of a case that are stopped or killed at random points, by a seed, and resumed: the folder is
+ * bitwise that of an uninterrupted run. A process kills itself at a step, or before its n-th
+ * operation on a file: no test waits for a clock. */
 #include "case_kit.h"
 #include "job_fixture.h"
 #include <dirent.h>
@@ -113,7 +114,7 @@ static int run_part(const char *folder, const part *p)
     return code;
 }
 
-/* The same in a process of its own. @return exit code, -1: killed */
+/* Run in a separate process. @return exit code, -1: killed */
 static int in_process(const char *folder, const part *p)
 {
     int code = 0;
@@ -126,7 +127,7 @@ static int in_process(const char *folder, const part *p)
 
 /* ---- folders ---- */
 
-/* A line that tells about a machine, a place or a program instead of about the run. */
+/* A line about a machine, a folder or a program instead of the run. */
 static bool is_of_machine(const char *line)
 {
     static const char *const words[] = {
@@ -209,7 +210,8 @@ static int make_whole(void **state)
                : -1;
 }
 
-/* Parts end by a kill at a step or within the writing of files, or by a stop, as often as it happens until the run is at its end. */
+/* Parts end by a kill at a step or within the writing of files, or by a stop, as often as it
+ * happens until the run is at its end. */
 static void broken_runs_go_on(void **state)
 {
     static const char *const checkpoints[] = {NULL, "0.02 s", "0.11 s"};
@@ -242,8 +244,8 @@ static void broken_runs_go_on(void **state)
     }
 }
 
-/* A run that reached its end, and one that was stopped, go on to a later end as one run to that end; also where the first end is so early
- * that all steps were fitted to it. */
+/* A complete run, and one that was stopped, continue to a later end like one run to that end; also
+ * if the first end is so early that all steps were adjusted to it. */
 static void ends_can_be_later(void **state)
 {
     static const struct {
@@ -292,7 +294,8 @@ static void peaks_have_no_end(void **state)
     }
 }
 
-/* What would make one record of two runs is refused, with the key and both values; what is written or evaluated afterwards may change. */
+/* What would make one record of two runs is refused, with the key and both values; what is written
+ * or evaluated afterwards may change. */
 static void cases_stay_the_same(void **state)
 {
     static const struct {

@@ -1,6 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# A driver in C and its case file give the same bytes of probes.csv and of frames: the language can say all that a driver does.
+# A driver in C and its case file give the same bytes of probes.csv and of frames: case files can
+# express all features of a driver.
 # usage: test_same_bytes.sh DRIVERS PROGRAM CASES [NAME ..]
 export LC_ALL=C # awk, printf and sort take numbers with a point
 drivers=$1 program=$2 cases=$3
@@ -9,7 +10,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 failed=0
 
-# name, time simulated [s]: some tens of steps; a driver has no body that the library moves, as cases with `body` have
+# name, time simulated [s]: some tens of steps; a driver has no rigid body, unlike cases with `body`
 times=$(grep -vf <(grep -l "^body:" "$cases"/*.yaml | sed 's|.*/||; s|[.]yaml$| |') "$(dirname "$0")/short_runs")
 count=$(grep -L "^body:" "$cases"/*.yaml | wc -l)
 if [ "$count" -ne "$(wc -l <<< "$times")" ]; then

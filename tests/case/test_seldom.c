@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What few cases have: many columns, solids and fluids, references of angles, a fill without a level, a list of models. */
+/* Rarely used features of cases: many columns, solids and fluids, references of angles, a fill
+ * without a level, a list of models. */
 #include "case_kit.h"
 #include "job_fixture.h"
 #include <mps/case.h>
@@ -8,7 +9,7 @@
 #define WATER "fill: [{water: {depth: 0.3 m}}]\n"
 #define END   "run: {until: 8 ms, dt: 4 ms, threads: 1}\n"
 
-/* What a check tells, with its messages; the caller frees it. */
+/* Output of a check, with its messages; the caller frees it. */
 static char *told(const char *case_text)
 {
     mps_case *c = NULL;
@@ -37,7 +38,7 @@ static void tells(const char *case_text, int count, const char *const *words)
     tells(text, (int)(sizeof((const char *const[]){__VA_ARGS__}) / sizeof(char *)), \
           (const char *const[]){__VA_ARGS__})
 
-/* Limits of what a case may have, told at the first one beyond. */
+/* Limits of numbers of items in a case, reported at the first one beyond. */
 static void too_many(void **state)
 {
     char text[8000];
@@ -69,7 +70,8 @@ static void too_many(void **state)
           "two points are opposite corners of a panel along the axes");
 }
 
-/* A check lists the first and the last cell of a large panel, and 256 columns in all; it tells how many it leaves out. */
+/* A check lists the first and the last cell of a large panel, and 256 columns in total; it reports
+ * the number of omitted ones. */
 static void many_columns(void **state)
 {
     char text[24000];
@@ -149,7 +151,7 @@ static void quiet_run(const char *text)
     mps_case_destroy(c);
 }
 
-/* A block of water without a level: a gauge is zero where the highest particle of the liquid stands. */
+/* A block of water without a level: the zero of a gauge is the highest particle of the liquid. */
 static void no_level(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sensors of a case as columns of probes.csv: pressures, panels, rows, gauges and forces of water at rest are hydrostatic. */
+/* Sensors of a case as columns of probes.csv: pressures, panels, rows, gauges and forces of water
+ * at rest are hydrostatic. */
 #include "case_kit.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -137,7 +138,8 @@ static void space(void **state)
     near(&t, "x", 0.5, 1e-6);
 }
 
-/* In 2-D, with a plate, and a gauge that begins on the slope of a chamfer. The rows beside the slopes settle in the first 0.2 s. */
+/* In 2-D, with a plate, and a gauge that starts on the slope of a chamfer. The rows next to the
+ * slopes settle in the first 0.2 s. */
 static void plane(void **state)
 {
     static const double unit = 9810;

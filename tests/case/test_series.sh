@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Many runs by several processes: --jobs, --part as tasks of a queue, processes that share a folder, a lock of another machine, signals; all
-# runs are checked before the first; the table is made from what is there.
+# Many runs by several processes: --jobs, --part as tasks of a queue, processes that share a folder,
+# a lock of another machine, signals; all runs are checked before the first; the table contains the
+# existing results.
 # usage: test_series.sh PROGRAM
 program=$1
 . "$(dirname "$0")/program_kit.sh"
@@ -26,7 +27,7 @@ sweep: {motion.surge.period: 0.9 1 T1, motion.surge.amplitude: 5 6 10 mm}
 collect: [P.max]
 END
 
-# ---- a sweep that --set gives to a case without one, or in place of its own
+# ---- a sweep by --set in a case without one, or instead of its own
 sed '/^sweep\|^collect/d' sweep.yaml > single.yaml
 expect 0 "run 2 of 2: title=two" "$program" sweep single.yaml --set 'sweep={"title": [one, two]}' -o given
 expect 0 "run 2 of 2: title=two" "$program" sweep sweep.yaml --set 'sweep={"title": [one, two]}' -o replaced
@@ -63,7 +64,7 @@ expect 0 "4 of 6 runs in 'some' are not done" "$program" sweep sweep.yaml -o som
 grep -q '^001,0.9 T1,5 mm,nan,0.005,nan,nan$' some/sweep.csv || fail "a run of another part: $(cat some/sweep.csv)"
 for part in 0/3 4/3 x 1/ 1/3x /3; do expect 2 "--part $part: must be I/N" "$program" sweep sweep.yaml -o none --part $part; done
 
-# ---- the table of what is there: inputs that differ, as texts and in SI
+# ---- the table of existing results: different inputs, as texts and in SI
 expect 0 "two.csv: 8 runs" "$program" collect one some -o two.csv
 head -1 two.csv | grep -qF 'run,motion.surge.amplitude,motion.surge.period,motion.surge.amplitude.si[m],motion.surge.period.si[s],exit,P.max[Pa]' ||
     fail "names of a collected table: $(head -1 two.csv)"
@@ -101,7 +102,7 @@ expect 0 "6 runs, 0 refused" "$program" check sweep.yaml --jobs 2
 grep -qE "^ +about [0-9.e+-]+ to [0-9.e+-]+ (s|min|h) of wall clock in all" log || fail "time of all runs: $(cat log)"
 grep -qE "with --jobs 2 about .*, at least 2 processors; [0-9]+ MB of memory, [0-9]+ MB a run" log || fail "memory of all runs: $(cat log)"
 
-# ---- a signal ends all processes; each run has a checkpoint, and goes on
+# ---- a signal ends all processes; each run has a checkpoint, and can be resumed
 sed 's/until: 0.02 s/until: 500 s/; s/5 6 10 mm/5 6 mm/' sweep.yaml > long.yaml
 "$program" sweep long.yaml -o stopped --jobs 2 > log 2>&1 &
 pid=$!

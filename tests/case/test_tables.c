@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Tables as loggers, spreadsheets and programs write them: each is read right or refused with
- * the reason. */
+/* Tables in the formats of loggers, spreadsheets and programs: each is read correctly or refused
+ * with the reason. */
 #include "build_kit.h"
 #include "case_csv.h"
 #include "csv.h"
@@ -77,7 +77,7 @@ static void refused(void **state)
         mps__csv t;
         const char *word;
         size_t length;
-        if (k == 10) continue; /* strtod() takes what an open quote leaves */
+        if (k == 10) continue; /* strtod() reads the rest after an open quote */
         if (read_text(&t, texts[k][0], 0) != CSV_FILE) fail_msg("read: %s", texts[k][0]);
         for (int32_t i = 0; (length = mps__words_get(texts[k][1], i, &word)) > 0; i++) {
             char one[100];
@@ -179,7 +179,7 @@ static void refused_motion(const char *text, const char *motion, const char *wor
     built_refused(all, 6, words);
 }
 
-/* A unit stands once; the same twice does no harm. Names that are there twice are no names. */
+/* A unit occurs once; a repeated equal unit is accepted. Duplicate names are ignored as names. */
 static void motions(void **state)
 {
     built t;

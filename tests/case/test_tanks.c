@@ -39,8 +39,8 @@ static const double CHAMFERED[8][2] = {{0.095, 0},    {0.855, 0},    {0.95, 0.09
 #define CHAMFER \
     "mps: 1\ndp: %g mm\ntank: {size: 950 670 mm, chamfer: {bottom: 95 95 mm, top: 215 215 mm}}\n"
 
-/* In a chamfered tank the volume is that of the polygon below the level, within 0.2 %. Of liquid that is 13 spacings deep at its lowest, between
- * slopes, it is 0.3 %. */
+/* In a chamfered tank the volume is that of the polygon below the level, within 0.2 %. Of liquid
+ * that is 13 spacings deep at its lowest, between slopes, it is 0.3 %. */
 static void chamfered(void **state)
 {
     static const struct {
@@ -84,7 +84,7 @@ static void chamfered_3d(void **state)
     }
 }
 
-/* A tank that stands at an angle, as a rolled polygon: the lattice does not follow its walls. */
+/* An inclined tank, as a rotated polygon: the lattice does not follow its walls. */
 static void rolled(void **state)
 {
     const double angle = 0.31, c = cos(angle), s = sin(angle);
@@ -135,7 +135,8 @@ static void forms(void **state)
     same_number(rod.hi[1], 4.6, 1e-12);
 }
 
-/* What a form holds up to a level: a box; the chamfered section 20 x 12 m, whose chamfers take 9 m2 below and 36 m2 above. */
+/* Volume of a shape up to a level: a box; the chamfered section 20 x 12 m, whose chamfers take 9 m2
+ * below and 36 m2 above. */
 static void below(void **state)
 {
     form box = {.kind = FORM_BOX, .dim = 3, .lo = {1, 1, 1}, .hi = {3, 4, 2}};
@@ -162,7 +163,8 @@ static void below(void **state)
     assert_true(isnan(mps__form_volume_below(&tank, 3.6)));
 }
 
-/* T1 of a rectangular tank is that of the size asked for, whatever the spacing; table of see: 40 x 20 m, g 9.807, 7.476 s. */
+/* T1 of a rectangular tank is that of the requested size, for any spacing; 40 x 20 m, g 9.807,
+ * 7.476 s. */
 static void periods(void **state)
 {
     static const char *const dps[] = {"dp=0.5 m", "dp=0.7 m"};
@@ -182,7 +184,8 @@ static void periods(void **state)
     }
 }
 
-/* Sections: the first value w^2/g of a rectangle k tanh(k h), of planes at 45 degrees 1/h (phi = x y), of a half-full circle 1.3557/R. */
+/* Sections: the first value w^2/g of a rectangle k tanh(k h), of planes at 45 degrees 1/h (phi = x
+ * y), of a half-full circle 1.3557/R. */
 static void sections(void **state)
 {
     const double pi = acos(-1.0);
@@ -211,7 +214,7 @@ static void sections(void **state)
     assert_true(fabs(value[0] * 2 / 1.35573 - 1) < 0.001);
 }
 
-/* The same in cases; a cylinder is estimated, and says so. */
+/* Natural periods in cases; that of a cylinder is an estimate, and marked as such. */
 static void methods(void **state)
 {
     built t;
@@ -231,7 +234,7 @@ static void methods(void **state)
     same_number(t.b.modes.length, 1.5, 1e-3);
     same_number(t.b.modes.depth, 0.25 * acos(-1.0) * 0.5, 0.05);
     built_free(&t);
-    /* a cube from a file, exact; the upper row holds a share of its points */
+    /* a cube from a file, exact; the upper row has a fraction of its points */
     built_make(&t,
                "mps: 1\ndim: 3\ndp: 60 mm\ntank: {stl: " CASES "cube.stl, unit: m}\n"
                "fill: [{water: {depth: 40 %}}]\nrun: {until: 2 T1}\n",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The language of cases where it is used seldom: characters, numbers, paths into lists, chains of files, sweeps, and what is told of them. */
+/* Rarely used features of case files: characters, numbers, paths into lists, chains of files,
+ * sweeps, and their messages. */
 #include "case_kit.h"
 #include <sys/stat.h>
 
@@ -37,7 +38,7 @@ static void round_trip(const char *text, const char *words)
 
 /* ---- characters */
 
-/* What is no character of UTF-8, or none of YAML, at its place: a column is a character. */
+/* Invalid UTF-8 or YAML characters, with their position: a column is a character. */
 static void characters(void **state)
 {
     static const struct {
@@ -125,7 +126,8 @@ static void kinds(void **state)
     kit_refused(HEAD "sensors: 3\n", 3, 10, "sensors: a map of names is wanted, not a text");
     kit_refused(HEAD "sensors: {\"\": {wall: 0 0 m}}\n", 3, 11,
                 "name '': a letter a to z, A to Z is wanted");
-    /* of one key elsewhere the message tells where; not of one at the top, nor of several */
+    /* the message names the position of one key elsewhere; not of a top-level key, nor of several
+     * keys */
     kit_refused(HEAD "output: {gravity: 1 m/s2}\n", 3, 10, "unknown key 'output.gravity'");
     kit_refused(HEAD "output: {radius: 1 m}\n", 3, 10, "unknown key 'output.radius'");
     kit_refused(HEAD "output: {fill: []}\n", 3, 10, "unknown key 'output.fill'");
@@ -272,7 +274,7 @@ static void chains(void **state)
     has(c, "dp: 4 mm\n"); /* of the file itself */
     has(c, "until: 5 s\n");
     mps_case_destroy(c);
-    /* a key that no map has is merged too, and told of once */
+    /* an unknown key is merged too, and reported once */
     write_file(path, sizeof path, folder, "0.yaml", CASE "xyzzy: {a: {b: 1}}\n");
     write_file(path, sizeof path, folder, "1.yaml", "base: 0.yaml\nxyzzy: {a: {c: 2}}\n");
     assert_int_equal(mps_case_read(path, 0, NULL, &c), MPS_E_ARG);

@@ -190,7 +190,7 @@ static void split(void **state)
     assert_false(mps__numbers_split("2 3 mm", 0, text, 3));
 }
 
-/* A host may have another decimal point. */
+/* An application may have another decimal point. */
 static void other_locale(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cases as few people write them: motions of many harmonics, tables in the axes of the library, numbers that lack one, many messages. */
+/* Unusual cases: motions of many harmonics, tables in the axes of the library, incomplete lists of
+ * numbers, many messages. */
 #include "build_kit.h"
 #include "job_fixture.h"
 
@@ -18,7 +19,7 @@ static char *write_table(char *path, size_t size, const char *text)
 
 /* ---- motions */
 
-/* 6000 harmonics are the most: here 7 spectra of 1000, or 6 and one wave more. */
+/* 6000 harmonics are the maximum: here 7 spectra of 1000, or 6 and one wave more. */
 static void many_harmonics(void **state)
 {
     static const char spectrum[] =
@@ -59,7 +60,8 @@ static void wrong_motions(void **state)
     unlink(path);
 }
 
-/* The same table in the axes of a ship and in those of the library, where sway goes along -z and pitch turns about it. */
+/* A table in the axes of a ship and in those of the library, where sway is along -z and pitch about
+ * it. */
 static void axes_of_tables(void **state)
 {
     static const char table[] = "time[s],surge[m],sway[m],pitch[deg]\n0,0,0,0\n1,0.1,0.2,3\n";
@@ -94,7 +96,8 @@ static void axes_of_tables(void **state)
     unlink(path);
 }
 
-/* With a ramp the rows before the start of the run are at rest, and those after it grow as the first cubes of time. */
+/* With a ramp the rows before the start of the run are at rest, and those after it grow as the
+ * first cubes of time. */
 static void ramp_of_tables(void **state)
 {
     char path[600], text[1600];
@@ -124,7 +127,7 @@ static void tanks(void **state)
                   "fill: [{water: {depth: 0.4 m}}]\n" END,
                   4, "tank.size: 3 numbers are needed in 3-D");
     built_refused(TOP BOX "kernel: {near: 1.2 dp, far: 0.1 dp}\n" END, 1, "re_");
-    /* a level between two rows: the tank reaches as far up as down from it, whole cells and a half */
+    /* a level between two rows: the tank is symmetric about it, whole cells and a half */
     built_make(&t,
                TOP "tank: {size: 1 0.6 m, between_rows: 0.31 m}\n"
                    "fill: [{water: {depth: 50 %}}]\n" END,
@@ -148,7 +151,8 @@ static double first_step(const char *text)
     return info.dt;
 }
 
-/* Liquid at rest: 0.06 sqrt(dp/g), half of it with the models of the papers; run.dt_max is the least of all. */
+/* Liquid at rest: 0.06 sqrt(dp/g), half of it with the models of the papers; run.dt_max is the
+ * least of all. */
 static void steps(void **state)
 {
     const double calm = sqrt(0.05 / 9.81);
@@ -219,7 +223,8 @@ static void checks(void **state)
                 "F: moment about z through (0, 0) m", "a: measure\n");
 }
 
-/* Volumes of round tanks; a centre of rotation beside the picture, on each side; a title with marks of XML. */
+/* Volumes of round tanks; a centre of rotation outside of the picture, on each side; a title with
+ * marks of XML. */
 static void drawings(void **state)
 {
     static const char *const centres[] = {"-5 0.3 m", "6 0.3 m", "0.5 4 m", "0.5 -4 m"};
@@ -320,13 +325,14 @@ static void many_messages(void **state)
     int count = 0;
     if (!more || sscanf(more, " .. and %d more messages like these", &count) != 1)
         fail_msg("%s", told);
-    assert_true(count >= 5 && count < 10); /* beside those of the fill */
+    assert_true(count >= 5 && count < 10); /* in addition to those of the fill */
     free(told);
     free(sketch);
     mps_case_destroy(c);
 }
 
-/* A circle, and solids of each shape, have their outlines on the page; a file without a point in its name has its name. */
+/* A circle, and solids of each shape, have their outlines on the page; a file without a point in
+ * its name has its name. */
 static void outlines(void **state)
 {
     int32_t code;

@@ -1,7 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The program mps where something is in its way: options in all forms, files that cannot be written, files of other kinds, memory that runs out, ranks.
-# usage: test_verbs.sh PROGRAM FAKE_RANKS [FAIL_MALLOC]    without the last one memory does not run out
+# Errors of the program mps: options in all forms, files that cannot be written, files of other
+# types, out of memory, ranks.
+# usage: test_verbs.sh PROGRAM FAKE_RANKS [FAIL_MALLOC]    without FAIL_MALLOC the tests of memory
+# are skipped
 program=$1 ranks=$2 memory=$3
 . "$(dirname "$0")/program_kit.sh"
 says() { grep -qE -- "$1" log || fail "no '$1' in: $(head -8 log)"; }
@@ -62,7 +64,7 @@ expect 2 "no key and no text of one has 'tanx'" "$program" list keys tanx
 expect 0 "body.gravity" "$program" list keys buoyancy # a word of a text
 "$program" list keys mps > log
 [ "$(wc -l < log)" -ge 1 ] || fail "list keys mps"
-# a text that cannot be written is a failure of each verb, a drawing that nobody asked for is none
+# a text that cannot be written is a failure of each verb, an unrequested drawing is not
 for verb in schema "list keys" "list units" "check small.yaml" "info small.yaml" --version --help "run --help"; do
     # shellcheck disable=SC2086
     "$program" $verb > /dev/full 2> log
@@ -70,7 +72,7 @@ for verb in schema "list keys" "list units" "check small.yaml" "info small.yaml"
     says "mps ${verb%% *}: cannot write to stdout: No space left"
 done
 
-# ---- streams that are closed are no place for outputs
+# ---- closed streams are no outputs
 "$program" list cases <&- > log || fail "list without stdin"
 says "^tank "
 expect 2 "is no list" sh -c '"$0" list nothing <&- >&-' "$program"
@@ -132,7 +134,7 @@ printf '{"t_end": 3, "inputs": [{"key": "impacts.share", "value": "2"}]}\n' > po
 expect 2 "poor: 'share' is 2" "$program" stats poor
 printf 'no json' > poor/summary.json
 expect 2 "poor/summary.json" "$program" stats poor
-# the end of a long name: the folder is there, its outputs have no name
+# limit of a long name: the folder exists, but names of its outputs are too long
 long=done
 while [ ${#long} -lt 4088 ]; do long=$long/./././.; done
 expect 1 "': File name too long" "$program" stats "$long"
@@ -195,7 +197,7 @@ expect 0 "it is cut short, or damaged" "$program" info cut.mps
 expect 0 "checkpoint of a run, 72 bytes" "$program" info huge.mps
 [ "$(wc -l < log)" -eq 2 ] || fail "info: a part with too large elements: $(cat log)"
 
-# ---- series: what is there already, tables that cannot be written
+# ---- series: existing results, tables that cannot be written
 "$program" run small.yaml --set "run.until=100000 s" -o stopped > log 2>&1 &
 pid=$!
 for ((k = 0; k < 600; k++)); do
@@ -215,11 +217,11 @@ expect 0 "" "$program" sweep sweep.yaml -o swept -q -j 1
 grep -q '^001,"a, b",0,' swept/sweep.csv && grep -q '^002,"say ""c""",0,' swept/sweep.csv && grep -q '^003,plain,0,' swept/sweep.csv ||
     fail "quotes of sweep.csv: $(cat swept/sweep.csv)"
 head -1 swept/sweep.csv | grep -q '^run,title,exit,surge.max\[m\],P.max\[Pa\],eta.max\[m\],' || fail "a sweep without collect: $(head -1 swept/sweep.csv)"
-# constants of a run that cannot be read are told
+# unreadable constants of a run are reported
 sed -i '1s/{/{ broken/' swept/003/summary.json
 expect 0 "swept/003/summary.json" "$program" sweep sweep.yaml -o swept -q
 sed -i '1s/{ broken/{/' swept/003/summary.json
-# threads do not make another case; a table that is gone is a failure of its run alone
+# another number of threads is no other case; a missing table is a failure of its run only
 rm swept/002/probes.csv
 expect 0 "swept/003: is done already" "$program" sweep sweep.yaml -o swept
 says "002.probes.csv"
@@ -361,7 +363,7 @@ rm -r coefficients/003 coefficients/tilt_roll.csv
 mkdir coefficients/tilt_roll.csv
 expect 2 "coefficients/tilt_roll.csv: Is a directory" "$program" "${series[@]}"
 rm -r coefficients
-# what one folder holds, of a series that is done: whole tables again, but for that
+# one folder of a complete series is damaged: the tables are complete except for it
 spoiled() { # wanted exit code, wanted text, file, program of sed
     rm -rf coefficients
     cp -r kept_coefficients coefficients
@@ -394,7 +396,7 @@ for file in csv dat; do
     rm coefficients/coefficients.$file
     mv kept.$file coefficients/coefficients.$file
 done
-# refused before there is a run
+# refused before a run is created
 expect 2 "use 'mps sweep'" "$program" coefficients forced.yaml --set "sweep={motion.surge.period: 1 2 T1}" -o none
 expect 2 "no.yaml" "$program" coefficients no.yaml -o none
 expect 2 "--set: there are too many" "$program" coefficients forced.yaml "${many[@]:0:120}" -o none
@@ -452,7 +454,8 @@ grep -q "averages over" log && fail "a load by the pressures of walls warns as i
 grep -q "t = .* s, .* steps in" log || fail "no messages of the run: $(cat log)"
 grep -q '^3\.4906' by_omega/coefficients.csv || fail "200 deg/s: $(cat by_omega/coefficients.csv)"
 
-# ---- memory that runs out: at each allocation of a short command, at some of a long one. No crash; a failure has a message, and what is done is right
+# ---- memory that runs out: at each allocation of a short command, at some of a long one. No crash;
+# a failure has a message, and what is done is right
 starve() { # step, command ..
     local step=$1 k=1 code calls
     shift
@@ -481,7 +484,8 @@ if [ -n "$memory" ]; then
     starve 7 check small.yaml -o small.svg
     starve 97 run small.yaml -o starved --overwrite
     starve 29 sweep sweep.yaml -o whole_sweep -q
-    # a folder with short tables of steps: to read those of `series` took three times as long, by the same allocations
+    # a folder with short tables of steps: to read those of `series` took three times as long, by
+    # the same allocations
     series=(coefficients forced.yaml --degrees "surge roll" --period "1 T1" --periods 1 --set "run.dt=20 ms" -o short -q)
     expect 0 "" "$program" "${series[@]}"
     starve 3 "${series[@]}"

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by the tests of the drivers, whose argument is the folder of the drivers: a folder to work in, runs and failures.
+# Sourced by the tests of the drivers, whose argument is the folder of the drivers: a working
+# folder, runs and failures.
 drivers=$(realpath "${1:?usage: $0 FOLDER_OF_DRIVERS}") || exit 2
 scratch=$(mktemp -d)
 trap 'kill -KILL $(jobs -p) 2>/dev/null; rm -rf "$scratch"' EXIT
@@ -36,7 +37,8 @@ ends() { # exit code, what, log
     [ $code = "$1" ] || { fail "$2: exit $code instead of $1"; cat "$3"; }
 }
 
-# An end for runs that go on: a multiple of an interval, 60 steps behind all steps in the folders. The last 20 steps of a run share what is left.
+# An end for resumed runs: a multiple of an interval, 60 steps after all steps in the folders. The
+# last 20 steps of a run divide the remaining time.
 later() { # interval, folders...
     local interval=$1
     shift

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plates whose layers are thinner than the spacing (layer.history): two plates far apart, all ends of the liquid free.
- * They start at once or swing. The momentum of the liquid is the drag's integral over the time; it is compared with the exact one, from rest,
- * at all times. */
+/* Plates whose layers are thinner than the spacing (layer.history): two plates far apart, all ends
+ * of the liquid free. They start suddenly or oscillate. The momentum of the liquid is the time
+ * integral of the drag; it is compared with the exact solution from rest at all times. */
 #ifndef STOKES_PLATES_H
 #define STOKES_PLATES_H
 
@@ -41,11 +41,12 @@ static double speed_of(const plates *p)
     return 0.01 * DP / p->t_end;
 }
 
-/* Momentum of the liquid between both plates, over that of its moving with the plates; a mean over the gap. */
+/* Momentum of the liquid between both plates, over that of its moving with the plates; a mean over
+ * the gap. */
 static double exact(const plates *p, double t)
 {
     enum { TERMS = 8000 };
-    /* of the terms left out, which follow the plates at once */
+    /* of the omitted terms, which follow the plates immediately */
     double sum = 4 / (PI * PI * TERMS) * (p->rate == 0 ? 1 : sin(p->rate * t));
     for (int n = 1; n < TERMS; n += 2) {
         const double k = n * PI / (p->gap * DP), l = NU * k * k, share = 8 / (n * PI * n * PI),
@@ -59,7 +60,7 @@ static double exact(const plates *p, double t)
     return sum;
 }
 
-/* Velocity of the liquid without plates: the plates stand still, and all else moves the other way. */
+/* Velocity of the liquid without plates: in the frame of the plates. */
 static double outer(const plates *p, double t)
 {
     return p->rate == 0 ? speed_of(p) : speed_of(p) * sin(p->rate * t);
@@ -134,8 +135,8 @@ static mps_sim *begin(plates *p, double dt, bool layers)
     return sim;
 }
 
-/* The same of the particles, as what they lack of `whole`: columns in the middle. At the ends, where particles lack neighbours, layers grow
- * more slowly; in the time t that reaches as far inside as sqrt(4 nu t). */
+/* Velocity deficit of the particles against `whole`, columns in the middle. At the ends, where
+ * neighbours are missing, layers grow more slowly; this affects a distance sqrt(4 nu t). */
 static double momentum(mps_sim *sim, const plates *p, double whole)
 {
     const int32_t *kind = NULL;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Command line and outputs of the drivers: wrong values are refused by name, outputs are complete, exit codes are kept.
+# Command line and outputs of the drivers: wrong values are refused by name, outputs are complete,
+# exit codes are kept.
 # usage: tests/cases/test_drivers.sh FOLDER_OF_DRIVERS
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -176,7 +177,8 @@ cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes not
 
 runs 0 droplet --model mmps.paper --dp 0.001 --t-end 0.002 --frames 0 --out drop_paper # without gravity nothing is uppermost
 runs 0 rayleigh_taylor --model mmps.paper --dp 0.05 --t-end 1 --frames 0 --out two_liquids # p = 0 atop the lower of two liquids breaks off at 0.83 s
-# a model for one phase gets what a case of two cannot do without: surface tension, a level of the pressure
+# a model for one phase gets the models that a case of two phases needs: surface tension, a pressure
+# datum
 runs 0 droplet --model imps --dp 0.001 --t-end 0.002 --sigma 0.01 --frames 0 --out drop_one
 runs 0 static_two_fluid --model imps --dp 0.05 --t-end 0.05 --frames 0 --out level
 awk -F, 'END {exit !(($3 - 2460) ^ 2 < 250 ^ 2)}' level/probes.csv || fail "static_two_fluid --model imps: P2 is not rho g 0.25 m"
@@ -252,7 +254,8 @@ grep -q 'torn.stl' log || fail "a torn file is not named: $(cat log)"
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --sensor-average 0.005 --out averaged
 if cmp -s averaged/probes.csv sloshing_high_fill/probes.csv; then fail "--sensor-average changes nothing"; fi
 
-# a driver does not warn of an average that it chose itself, and names the column of one that the user chose
+# a driver does not warn of an average that it chose itself, and names the column of one that the
+# user chose
 runs 0 impact --case wedge --dp 0.02 --t-end 0.02 --frames 0 --out own_average
 if grep -q 'warning' log; then fail "impact --case wedge warns of its own default: $(cat log)"; fi
 runs 0 impact --case wedge --dp 0.02 --t-end 0.02 --frames 0 --sensor-average 0.001 --out short_average
@@ -285,7 +288,8 @@ has closed probes.csv summary.json
 head -1 closed/probes.csv | grep -q '^t\[' || fail "closed streams: probes.csv begins with $(head -1 closed/probes.csv)"
 if grep -l 'static_tank:' closed/*.csv; then fail "closed streams: messages are in these files"; fi
 
-# the outputs of a run that breaks off are readable: steps far too long for a tank that starts with a jump
+# the outputs of a run that breaks off are readable: steps far too long for a tank that starts with
+# a jump
 runs 3 sloshing_surge --model imps.paper --dp 0.025 --dt 0.1 --t-end 5 --out diverged
 grep -q 'at t = .*step' log || fail "a diverged run does not say when: $(cat log)"
 has diverged probes.csv summary.json report.html

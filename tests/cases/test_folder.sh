@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# The folder of a run: an earlier run is not lost by accident, one run writes at a time, a folder that cannot be written is refused.
+# The folder of a run: an earlier run is not overwritten by accident, only one run writes at a time,
+# a folder that cannot be written is refused.
 # usage: tests/cases/test_folder.sh FOLDER_OF_DRIVERS
 set -uo pipefail
 . "$(dirname "$0")/drivers.sh"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tank that its liquid moves, by mps_body_set(), against linear theory: frequencies, momentum, two peaks of a tank on a spring, energy. */
+/* A tank moved by its liquid, mps_body_set(), against linear theory: frequencies, momentum, two
+ * peaks of a tank on a spring, energy. */
 #include "../tags.h"
 #include <complex.h>
 #include <math.h>
@@ -22,7 +23,7 @@ static void ok(mps_sim *sim, mps_status status)
     if (status < 0) fail_msg("%s", mps_sim_error(sim));
 }
 
-/* The first mode of the surface, small; level with user. */
+/* The first mode of the surface, small amplitude; horizontal if `user` is set. */
 static int below(void *user, const double *x)
 {
     const double rise = user ? 0 : tilt * cos(acos(-1.0) * x[0] / width);
@@ -64,7 +65,8 @@ static mps_body_report report_of(mps_sim *sim)
 
 /* ---- theory ---- */
 
-/* Mass of tank and liquid at s = sigma + i w: M + m0 + sum m_n w_n^2 .../(w_n^2 + s^2), with a damping `delta` of all waves [1/s]. */
+/* Mass of tank and liquid at s = sigma + i w: M + m0 + sum m_n w_n^2 .../(w_n^2 + s^2), with a
+ * damping `delta` of all waves [1/s]. */
 static double complex mass_at(double mass, double complex s, double delta)
 {
     const double pi = acos(-1.0), liquid = 1000 * width * depth;
@@ -93,7 +95,7 @@ static double frequency(double mass)
 
 enum { STEPS = 1400 };
 
-/* What a sum of 1, t, cos wt and sin wt leaves of the places. */
+/* Residual of positions after a fit of 1, t, cos wt and sin wt. */
 static double left_over(const double *place, double w)
 {
     double g[4][5] = {{0}}, all = 0;
@@ -105,7 +107,8 @@ static double left_over(const double *place, double w)
         }
         all += place[i] * place[i];
     }
-    for (int r = 0; r < 4; r++) { /* Gauss; what leaves the last column is explained */
+    for (int r = 0; r < 4; r++) { /* Gauss elimination; the last column is reduced by the explained
+                                     part */
         for (int q = r + 1; q < 4; q++)
             for (int c = 4; c >= r; c--) g[q][c] -= g[q][r] / g[r][r] * g[r][c];
         all -= g[r][4] * g[r][4] / g[r][r];
@@ -153,8 +156,8 @@ static void frequencies(void **state)
     }
 }
 
-/* Momentum of the liquid along x as its load counts it: half of surface particles, half cells of the floor with the row above them, and of
- * the ends with the tank. */
+/* Momentum of the liquid along x as its load counts it: half of surface particles, half cells of
+ * the floor with the row above them, and of the ends with the tank. */
 static double momentum_of(mps_sim *sim, const mps_body_report *body)
 {
     mps_lease u = {.struct_size = sizeof u}, at = {.struct_size = sizeof at}, region;
@@ -178,7 +181,8 @@ static double momentum_of(mps_sim *sim, const mps_body_report *body)
     return sum;
 }
 
-/* What the tank gains the liquid loses, within half a per cent of the largest momentum of the wave. */
+/* What the tank gains the liquid loses, within half a per cent of the largest momentum of the
+ * wave. */
 static void keeps_momentum(void **state)
 {
     const double mass = 100;
@@ -198,7 +202,8 @@ static void keeps_momentum(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A dam that breaks in a tank of a fiftieth of its mass: the walls go where the water sends them. */
+/* A dam that breaks in a tank of a fiftieth of its mass: the walls go where the water sends
+ * them. */
 static void stays_within_reason(void **state)
 {
     const double lo[2] = {0, 0}, hi[2] = {0.3, 0.4};
@@ -224,7 +229,8 @@ static void stays_within_reason(void **state)
         assert_true(fabs(r.kinetic - r.start - r.liquid_work) < 1e-9 * (1 + fabs(r.liquid_work)));
     }
     print_message("dam: up to %.2f m/s, %.3f m away\n", fastest, farthest);
-    /* the centre of mass of the water goes by .25 m with respect to the tank; 2 sqrt(g .4 m) is the speed of its tip */
+    /* the centre of mass of the water moves by .25 m relative to the tank; 2 sqrt(g .4 m) is the
+     * speed of its tip */
     assert_true(farthest > 0.2 && farthest < 0.3);
     assert_true(fastest > 1 && fastest < 4);
     mps_sim_destroy(sim);
@@ -247,7 +253,8 @@ static int push(void *user, double t, const mps_motion_state *s, double load[6])
     return 0;
 }
 
-/* Response |x/force| at s = fading + i w: as if all faded by e^(-t/5 s), so that 25 s are enough. */
+/* Response |x/force| at s = fading + i w: as if all faded by e^(-t/5 s), so that 25 s are
+ * enough. */
 static void transform(const double *place, double *response)
 {
     for (int k = 0; k < LINES; k++) {
@@ -261,7 +268,7 @@ static void transform(const double *place, double *response)
     }
 }
 
-/* The same of linear theory, with a damping of the waves. */
+/* Response of linear theory, with wave damping. */
 static void respond(const mps_body *b, double delta, double *response)
 {
     for (int k = 0; k < LINES; k++) {
@@ -271,7 +278,7 @@ static void respond(const mps_body *b, double delta, double *response)
     }
 }
 
-/* Places of the two peaks. */
+/* Positions of the two peaks. */
 static void peaks(const double *response, int place[2])
 {
     int found = 0;
@@ -280,7 +287,8 @@ static void peaks(const double *response, int place[2])
     assert_int_equal(found, 2);
 }
 
-/* What the push gave is in the body, went to its damper, or is in the liquid, whose wave loses next to nothing. */
+/* The energy of the push is in the body, its damper or the liquid, whose wave loses almost
+ * nothing. */
 static void closes(const mps_body_report *r, const mps_energy *start, const mps_energy *end)
 {
     const double body = r->kinetic + r->spring + r->damped,
@@ -291,8 +299,8 @@ static void closes(const mps_body_report *r, const mps_energy *start, const mps_
     assert_true(fabs(rest) < 0.01 * r->external_work);
 }
 
-/* The wave as a damper: liquid a tenth of the tank, both of one frequency. The damping of the wave, the one number that theory lacks, is
- * that of the best fit to the whole response. */
+/* The wave as a damper: liquid a tenth of the tank, both of one frequency. The damping of the wave,
+ * the one number that theory lacks, is that of the best fit to the whole response. */
 static void two_peaks(void **state)
 {
     const double mass = 2000, k1 = acos(-1.0) / width, w1 = sqrt(9.81 * k1 * tanh(k1 * depth)),

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tank that is free along x and that only its liquid moves: each step is solved with the added mass. */
+/* A tank free along x, moved by its liquid only: each step is solved with the added mass. */
 #include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -80,7 +80,8 @@ typedef struct body {
     int *trials; /* NULL: not counted */
 } body;
 
-/* A step to t with the acceleration that its load asks for; without the added mass, with that of the last one. */
+/* A step to t with the acceleration by its load; without the added mass, with that of the last
+ * step. */
 static void solve_step(mps_sim *sim, mps_snapshot *start, double t, double dt, const body *b)
 {
     double *a = b->a;
@@ -102,7 +103,7 @@ static void solve_step(mps_sim *sim, mps_snapshot *start, double t, double dt, c
     if (!b->added) *a = load.force[0] / b->mass; /* of the next step */
 }
 
-/* Places of the tank after each step. @return whether it stayed within reason */
+/* Positions of the tank after each step. @return whether they are plausible */
 static int drift(double mass, int added, double dt, double *place, int *trials)
 {
     double x = 0, v = 0, a = 0;
@@ -125,7 +126,7 @@ static int drift(double mass, int added, double dt, double *place, int *trials)
     return done == STEPS;
 }
 
-/* What a sum of 1, t, cos wt and sin wt leaves of the places. */
+/* Residual of positions after a fit of 1, t, cos wt and sin wt. */
 static double left_over(const double *place, double dt, double w)
 {
     double g[4][5] = {{0}}, all = 0;
@@ -137,7 +138,8 @@ static double left_over(const double *place, double dt, double w)
         }
         all += place[i] * place[i];
     }
-    for (int r = 0; r < 4; r++) { /* Gauss; what leaves the last column is explained */
+    for (int r = 0; r < 4; r++) { /* Gauss elimination; the last column is reduced by the explained
+                                     part */
         for (int q = r + 1; q < 4; q++)
             for (int c = 4; c >= r; c--) g[q][c] -= g[q][r] / g[r][r] * g[r][c];
         all -= g[r][4] * g[r][4] / g[r][r];
@@ -177,8 +179,8 @@ static void frequencies(void **state)
     }
 }
 
-/* Momentum of the liquid along x as its load counts it: half of surface particles, half cells of the floor with the row above them, and of
- * the ends with the tank. */
+/* Momentum of the liquid along x as its load counts it: half of surface particles, half cells of
+ * the floor with the row above them, and of the ends with the tank. */
 static double momentum_of(mps_sim *sim, double x, double v)
 {
     mps_lease u = {.struct_size = sizeof u}, at = {.struct_size = sizeof at}, region;
@@ -202,7 +204,8 @@ static double momentum_of(mps_sim *sim, double x, double v)
     return sum;
 }
 
-/* What the tank gains the liquid loses, within half a per cent of the largest momentum of the wave. */
+/* What the tank gains the liquid loses, within half a per cent of the largest momentum of the
+ * wave. */
 static void keeps_momentum(void **state)
 {
     const double dt = 1.8e-3, mass = 100;

@@ -5,9 +5,9 @@
  *   jump     the plates jump to a velocity: Stokes' first problem between two plates;
  *   swing    the plates swing: Stokes' second problem between two plates, from rest;
  *   round    a full round tank jumps to a rate of rotation: spin-up.
- * Velocities are compared in the middle of the slug, a gap long. The walls' half cells are no
- * particles, so the friction of the force models is the stress half a spacing inside the wall; it
- * is compared with the exact one there, as its integral over the time. */
+ * Velocities are compared in the middle of the slug, a gap long. The half cells at walls have no
+ * particles, so the friction of the force models is the stress half a spacing inside the wall; its
+ * time integral is compared with the exact one at this distance. */
 #include "../tags.h"
 #include <math.h>
 #include <mps/model.h>
@@ -87,8 +87,8 @@ static double exact(const flow *f, double y, double t)
     return u;
 }
 
-/* Momentum that friction has given by the time t to what particles stand for, per mass: the mean
- * velocity from half a spacing inside one plate to the same inside the other, less the share of
+/* Momentum per mass that friction has transferred to the particles until time t: the mean velocity
+ * from half a spacing inside one plate to half a spacing inside the other, minus that by
  * gravity. */
 static double exact_friction(const flow *f, double dp, double t)
 {
@@ -143,7 +143,7 @@ static double middle(const double *x, const int32_t *kind, int64_t n)
     return sum / count;
 }
 
-static double friction; /* momentum per mass that force models gave to the middle of the slug */
+static double friction; /* momentum per mass from force models in the middle of the slug */
 
 static int watch(mps_stage *s)
 {
@@ -302,9 +302,9 @@ static void plates_that_swing(void **state)
     converges(&swing_flow);
 }
 
-/* The profile does not depend on the reach of the operator, nor on how pairs act, once the flow has
- * disturbed the square lattice. (On the lattice itself the whole stress is 1.2 % too weak along its
- * rows with a far radius of 3.1 dp, 6 % with 2.1 dp, which is left out here.) */
+/* The profile does not depend on the radius of the operator, nor on the direction of pair forces,
+ * after the flow has disturbed the square lattice. (On the lattice itself the full stress is 1.2 %
+ * too small along its rows with a far radius of 3.1 dp, 6 % with 2.1 dp, which is omitted here.) */
 static void radii_and_stress(void **state)
 {
     (void)state;
@@ -321,8 +321,8 @@ static void radii_and_stress(void **state)
     }
 }
 
-/* With radius 2.1 dp the whole stress asks for shorter steps than the time control alone would
- * take: it is stable. */
+/* With radius 2.1 dp the full stress needs shorter steps than the limits of the time control: it is
+ * stable. */
 static void whole_stress_is_stable(void **state)
 {
     (void)state;
@@ -330,7 +330,7 @@ static void whole_stress_is_stable(void **state)
     assert_true(fabs(m.size) < 0.1 && m.scatter < 0.1);
 }
 
-/* A curved wall, which turns: the particles beside it are on no lattice. */
+/* A rotating curved wall: the particles next to it are not on a lattice. */
 static void spin_up(void **state)
 {
     (void)state;
@@ -341,8 +341,8 @@ static void spin_up(void **state)
     assert_true(fabs(whole.size) < 0.01 && whole.scatter < 0.01);
 }
 
-/* In a tank that has turned long enough there is no friction: a liquid that turns with its tank
- * goes on doing so. */
+/* In a tank that has rotated long enough there is no friction: a liquid that rotates with its tank
+ * continues to do so. */
 static void turning_together(void **state)
 {
     (void)state;
@@ -352,7 +352,7 @@ static void turning_together(void **state)
     assert_true(fabs(m.size) < 1e-3 && m.scatter < 4e-3);
 }
 
-/* Dissipation that calms the lattice leaves a viscous liquid its own viscosity: a hundred times the
+/* Numerical dissipation does not change the viscosity of a viscous liquid: a hundred times the
  * default would double it. */
 static void dissipation_yields(void **state)
 {

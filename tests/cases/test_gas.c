@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Compressible gas. With the scheme imps: a column settles under its own weight, a swirl in a closed
- * tank keeps its mean pressure, half cells of walls give way. With mmps: a round pocket rings. */
+/* Compressible gas. With the scheme imps: a column is compressed by its own weight, a swirl in a
+ * closed tank keeps its mean pressure, half cells of walls are compressible. With mmps: a round
+ * pocket oscillates. */
 #include "../tags.h"
 #include "../unit/tank_fixture.h"
 #include <mps/model.h>
@@ -68,8 +69,8 @@ static place *sorted(mps_sim *sim, int64_t *count)
     return all;
 }
 
-/* Height of the lowest `rows` rows of `columns` particles, less the half cell of the floor, and
- * what the law gives for it. */
+/* Height of the lowest `rows` rows of `columns` particles, minus the half cell of the floor, and
+ * its value by the gas law. */
 static double share_height(const place *all, int64_t columns, int64_t rows, double exponent,
                            double *law)
 {
@@ -177,7 +178,7 @@ static void mean_pressure(void **state)
     assert_true(fabs(left) > 100);
 }
 
-/* ---- the gas of a full tank, counted by what its rows give way ------------------------------- */
+/* ---- the gas of a full tank, by the compression of its rows ------------------------------- */
 
 static double give; /* sum over all rows, for 1 Pa, in cells of the lattice */
 
@@ -200,8 +201,8 @@ static const mps_model_ops counter = {.struct_size = sizeof(mps_model_ops),
                                       .verb_count = 1,
                                       .verbs = counter_verbs};
 
-/* Walls stand for half cells, edges for quarters, corners for eighths: the whole tank gives way,
- * whatever its size. */
+/* Walls represent half cells, edges quarters, corners eighths: the whole tank is compressible, for
+ * any size. */
 static void walls_give_way(void **state)
 {
     (void)state;
@@ -231,7 +232,7 @@ static void walls_give_way(void **state)
     }
 }
 
-/* ---- a round pocket in round water, in a closed box of gas, 2-D, without gravity -------------- */
+/* ---- a round pocket in round water, in a closed box of gas, 2-D, without gravity ------------- */
 
 enum { PEAKS = 3 };
 static const double grid = 0.01, sound = 340, air = 1.2;
@@ -338,8 +339,9 @@ static int64_t push_water(mps_sim *sim, const pocket *q, double speed)
     return cells;
 }
 
-/* w^2 = 2 pi rho c^2 (1/V + 1/V')/(rho_w ln(R/a)), V and V' the volumes of both gases. The faces of the pocket move with the water half a
- * spacing behind them, so a pocket rings slower, w a/(a + dp/2). The implicit step damps it by pi w dt/gain a period. */
+/* w^2 = 2 pi rho c^2 (1/V + 1/V')/(rho_w ln(R/a)), V and V' the volumes of both gases. The faces of
+ * the pocket move with the water half a spacing behind them, so a pocket rings slower, w
+ * a/(a + dp/2). The implicit step damps it by pi w dt/gain a period. */
 static void ring(double radius, double outer, double dt)
 {
     static const double pi = 3.14159265358979323846, gain = 0.7;

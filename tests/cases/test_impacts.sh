@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Impacts: what walls report is what the fluid receives, impulses and forces against the exact ones, walls that let go of the liquid.
+# Impacts: loads on walls equal those on the fluid, impulses and forces against exact ones, walls
+# that separate from the liquid.
 #
-#   aim      the figure is where the scheme is meant to be: within so much of the exact value
-#   reached  it is not there yet: two-sided bounds about what this build reaches. A figure that leaves them towards the exact value is
-#            good news, and the bounds follow it; they are not to be widened in the other direction.
-# Pressures and forces are those of single steps, impulses and means of the driver itself. Without load.reaction flat, film and jet fail, without
-# separation.void floor and box_3d.
+#   aim      the figure meets the aim: within this factor of the exact value
+#   reached  the aim is not met yet: two-sided bounds around the figure of this build. If a figure
+#            leaves them towards the exact value, adapt the bounds; do not widen them in the other
+#            direction.
+# Pressures and forces are those of single steps, impulses and means of the driver itself. Without
+# load.reaction flat, film and jet fail, without separation.void floor and box_3d.
 # usage: tests/cases/test_impacts.sh FOLDER_OF_DRIVERS
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -20,7 +22,7 @@ value() { # folder, figure
     sed -n "s/^  \"$2\": \([-+.e0-9]*\),\{0,1\}$/\1/p" "$1/summary.json"
 }
 
-# A figure, or a number, lies between two factors of another one.
+# A figure, or a number, is between two factors of another one.
 between() { # name, figure or number, least factor, largest factor, figure or number
     local is=$2 against=$5
     [[ $is =~ ^[-+.0-9] ]] || is=$(value "$1" "$2")
@@ -37,7 +39,8 @@ film_ratio() { # folder
         awk 'NF == 4 {print ($1 + $2) / ($3 + $4)}'
 }
 
-# A block 40 rows high: exact impulses at the bottom, on the whole wall and of the fluid, whatever the length of the step.
+# A block 40 rows high: exact impulses at the bottom, on the whole wall and of the fluid, for any
+# length of the step.
 for cfl in 0.1 0.3; do
     impact "flat_$cfl" flat --dp 0.025 --cfl $cfl
     aim "flat_$cfl" impulse_bottom 0.95 1.05 exact_bottom
@@ -53,7 +56,8 @@ impact slice flat --dim 3 --dp 0.0625
 aim slice impulse_fluid 0.92 1.08 exact_mean
 aim slice impulse_force_late 0.9 1.1 impulse_fluid_late
 
-# Films: the wall has what the fluid lost and what the half cells of the floor carry, with two rows 1.25 times as much, with four 1.125 times.
+# Films: the wall has what the fluid lost and what the half cells of the floor carry, with two rows
+# 1.25 times as much, with four 1.125 times.
 for cfl in 0.05 0.1 0.2 0.4; do
     for rows in 2 4; do
         impact "film_${rows}_$cfl" film --rows $rows --cfl $cfl
@@ -63,8 +67,9 @@ for cfl in 0.05 0.1 0.2 0.4; do
     aim "film_4_$cfl" "$(film_ratio "film_4_$cfl")" 0.95 1.05 1.125
 done
 
-# The toe of a jet on a wall. With many rows: the exact impulse of contact, later rho U^2 h. With two rows, too, the wall has what the fluid lost, and
-# a sensor beside the toe its 0.15 rho U^2. With load.cover 0 the mean pressure reaches faces beside the toe: twice, and ten times as much.
+# The toe of a jet on a wall. With many rows: the exact impulse of contact, later rho U^2 h. Also
+# with two rows the wall receives what the fluid loses, and a sensor next to the toe 0.15 rho U^2.
+# With load.cover 0 the mean pressure reaches faces next to the toe: twice, and ten times as much.
 impact toe_16 toe --tip flat --rows 16
 aim toe_16 impulse_contact 0.97 1.12 exact_contact # to dp/U after it
 aim toe_16 force_steady 0.95 1.05 1
@@ -90,7 +95,8 @@ aim jet stagnation 0.95 1.05 1
 aim jet force_fluid 0.95 1.05 1
 reached jet force_walls 0.92 0.98 1 # exact: 1; .938 to .949 at 10 to 20 dp a width
 
-# 20 dp wetted and a small block: forces are 80 % of the exact 14.1, which they approach with a wider block and more dp
+# 20 dp wetted and a small block: forces are 80 % of the exact 14.1, which they approach with a
+# wider block and more dp
 impact wedge wedge --deadrise 30 --dp 0.01 --block 1
 reached wedge force_fluid 0.75 0.88 14.1
 reached wedge force_mean 1.0 1.12 force_fluid # exact: 1
@@ -104,8 +110,9 @@ aim column rebound -1 0.02 1
 aim column still 0.98 1.02 1
 aim column least -0.1 2 1
 
-# Nothing holds the liquid back where the void reaches: at the rim, where a wall pulls no more than liquid at rest that hangs from it over the
-# radius of 2.1 dp, 0.0525 rho g h. The middle is shut off from the void, so that it keeps its liquid and pulls; no exact value is known for it.
+# There is no suction at the edges, adjacent to the void: a wall pulls at most like liquid at rest
+# hanging from it over the radius of 2.1 dp, 0.0525 rho g h. The void does not reach the middle,
+# which keeps its liquid by suction; there is no exact value for it.
 impact floor floor --dp 0.0125
 aim floor rim_least_mean -0.0525 0.1 1
 aim floor fall_fluid 0.95 1.05 1

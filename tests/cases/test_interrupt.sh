@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Runs that are stopped by a signal: a checkpoint, rows that are complete up to it and go on without gap or double; progress in a batch log.
+# Runs that are stopped by a signal: a checkpoint, rows that are complete up to it and continue
+# without gaps or duplicates; progress in a batch log.
 # usage: tests/cases/test_interrupt.sh FOLDER_OF_DRIVERS
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -14,7 +15,8 @@ begin() { # folder, driver, options...: a run that has taken steps; $pid
     wait_for more_lines "$1/probes.csv" 1
 }
 
-# A row at every 0.001 s from 0 up to the time of the last step, which is that of the checkpoint, and no other.
+# A row at every 0.001 s from 0 up to the time of the last step, which is that of the checkpoint,
+# and no other.
 complete() { # folder
     awk -F, -v last="$(tail -1 "$1/steps.csv" | cut -d, -f1)" 'NR == 1 {next}
         ($1 - (NR - 2) * 1e-3) ^ 2 > 1e-24 {print "row", NR, "is at", $1; exit 1}
@@ -53,7 +55,7 @@ wait_for more_lines nohup/steps.csv $(($(wc -l <nohup/steps.csv) + 200)) # more 
 kill -TERM $pid || fail "SIGHUP ends a run under nohup"
 ends 130 "SIGTERM under nohup" nohup.log
 
-# no process reads what it says
+# no process reads its output
 mkfifo ears
 "$drivers/static_tank" --dp 0.04 --t-end $never --frames 0 --out pipe --threads 1 2>ears &
 pid=$!

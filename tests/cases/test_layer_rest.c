@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Water and air at rest. With planes about the foot (density.interface, `foot`) what moves in a disordered lattice decays; the shift is left out, so
- * that nothing but the densities of pairs can feed the flow. With a shift that follows the motion (shift.tangential, `calm`) an even lattice rests. */
+/* Water and air at rest. With planes about the foot point (density.interface, `foot`) motions in a
+ * disordered lattice decay; shifting is off, so that only the densities of pairs can drive the
+ * flow. With shifting proportional to the motion (shift.tangential, `calm`) a regular lattice
+ * remains at rest. */
 #include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -109,7 +111,8 @@ static void run(int foot, double strength, double mean[SECONDS])
     mps_sim_destroy(sim);
 }
 
-/* 1.1e-3 J/m in the second second, 5e-4 in the last one; with planes about the particle 1.2e-3 and 2.1e-3, and it goes on growing. */
+/* 1.1e-3 J/m in the second second, 5e-4 in the last one; with planes about the particle 1.2e-3 and
+ * 2.1e-3, and it continues to grow. */
 static void test_disordered(void **state)
 {
     double foot[SECONDS], particle[SECONDS];

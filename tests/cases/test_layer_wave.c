@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Standing wave of the interface between two liquids that fill a closed tank, from flat with the velocities of linear theory, against
+/* Standing wave of the interface between two liquids that fill a closed tank, from flat with the
+ * velocities of linear theory, against
  *   omega^2 = (rho1 - rho2) g k/(rho1 coth(k h1) + rho2 coth(k h2)). */
 #include "../tags.h"
 #include <math.h>
@@ -121,9 +122,10 @@ static measured run(double dp, double heavy, double light)
     return m;
 }
 
-/* At dp = L/20, L/40 (and L/80): frequency -1.2, -1.5 (-1.0) % for 2 : 1 and -0.9, -0.6 (-0.4) % for 1000 : 1; the amplitude after half
- * a period -13, -2.4 (-1.9) % and -7, -1.1 (-0.1) %. Most of this is alpha of dissipation.radial, a viscosity ~ dp^1.5 on liquids that
- * slide along each other. */
+/* At dp = L/20, L/40 (and L/80): frequency -1.2, -1.5 (-1.0) % for 2 : 1 and -0.9, -0.6 (-0.4) %
+ * for 1000 : 1; the amplitude after half a period -13, -2.4 (-1.9) % and -7, -1.1 (-0.1) %. Most of
+ * this is alpha of dissipation.radial, a viscosity ~ dp^1.5 on liquids that slide along each
+ * other. */
 static void near_theory(double heavy, double light, double most)
 {
     const measured coarse = run(0.05, heavy, light), fine = run(0.025, heavy, light);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thin plates in the liquid: rest with different levels on both sides, sloshing over and rolling with a baffle of one column. */
+/* Thin plates in the liquid: at rest with different levels on both sides, sloshing over a baffle of
+ * one column, rolling with it. */
 #include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -62,7 +63,7 @@ static void jitter(mps_sim *sim, double amount)
     OK(sim, mps_lease_end(sim, &x));
 }
 
-/* ---- rest -------------------------------------------------------------------------------------------------------- */
+/* ---- rest ------------------------------------------------------------------------------------ */
 
 typedef struct rest {
     int32_t probe[PROBES];
@@ -159,7 +160,7 @@ static void divided_tank_3d(void **state)
     check_divided(3, 1, 0.1, 0.2);
 }
 
-/* ---- motion ------------------------------------------------------------------------------------------------------ */
+/* ---- motion ---------------------------------------------------------------------------------- */
 
 /* Positions by id in the tank's frame before a step. */
 typedef struct paths {

@@ -2,10 +2,11 @@
 /* Trapped gas against exact solutions:
  *   slug    a slug of liquid on a closed column of gas: frequency, static sag, energy;
  *   films   of 1, 2, 4 rows between two pressures: acceleration;
- *   piston  a slug thrown at a closed column, Bagnold: peak and rise time over impact numbers;
- *   moving  a slug in a tank that rises: as in one at rest;
+ *   piston  a slug with an initial velocity towards a closed column, Bagnold: peak and rise time
+ *   over impact numbers;
+ *   moving  a slug in a rising tank: as in a tank at rest;
  *   bubble  in a round liquid: Minnaert's frequency, in 2-D and 3-D;
- *   stairs  a bubble cut from a lattice swings by little: energy;
+ *   stairs  a bubble cut from a lattice, small oscillations: energy;
  *   ullage  a slug between two closed gases: frequency. */
 #include "pocket_fixture.h"
 #include <stdlib.h>
@@ -64,7 +65,8 @@ static double frequency(const series *s, const double *value)
     return (crossings - 1) / (last - first);
 }
 
-/* ---- the exact slug: RHO length y'' = P [(h/y)^e - 1] - RHO length g, y the height of the gas ---- */
+/* ---- the exact slug: RHO length y'' = P [(h/y)^e - 1] - RHO length g, y the height of the gas
+ * ---- */
 
 static double gauge(double height, double y)
 {

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A pocket of gas under a slug of liquid that falls, is stopped by it and rises again. Something that
- * stands on the floor divides the gas while the slug is low, and it joins again:
+/* A pocket of gas under a slug of liquid that falls, is decelerated by the gas and rises again. An
+ * obstacle on the floor divides the gas while the slug is low, and it merges again:
  *   plate   a plate that the slug moves over;
  *   liquid  a column of liquid at rest.
- * The amount of gas is kept. The energy that gas and liquid exchange is known, that of the slug; the
- * rest of the budget is bounded on both sides. It is not zero: the slug hits the edge of the plate,
- * and the column, in an instant. */
+ * The amount of gas is conserved. The energy exchanged between gas and liquid is known, that of the
+ * slug; the residual of the budget is bounded on both sides. It is not zero because of the impacts
+ * of the slug on the edge of the plate and on the column. */
 #include "phase/gas_pocket.h"
 #include "pocket_fixture.h"
 

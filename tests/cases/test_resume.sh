@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Checkpoints of the drivers: a run that was interrupted or killed and goes on leaves the same bytes as one that ran through.
+# Checkpoints of the drivers: an interrupted or killed run that is resumed gives the same bytes as
+# an uninterrupted one.
 # usage: tests/cases/test_resume.sh FOLDER_OF_DRIVERS
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -34,14 +35,15 @@ same() { # folder, folder
     [ ! -e "$1/peaks.pvd" ] || { cmp "$1/peaks.pvd" "$2/peaks.pvd" && diff -rq "$1/peaks" "$2/peaks"; } || fail "$2 has other frames about peaks than $1"
 }
 
-# All frames the series names are there and no other, at increasing times.
+# All frames of the series exist and no others, at increasing times.
 series() { # folder
     sed -n 's/.*timestep="\([^"]*\)".*/\1/p' "$1/frames.pvd" | awk 'NR > 1 && $1 <= last {exit 1} {last = $1}' || fail "$1/frames.pvd: times do not increase"
     sed -n 's/.*file="\([^"]*\)".*/\1/p' "$1/frames.pvd" | diff - <(cd "$1" && find frames -name '*.vtp' | sort) || fail "$1/frames.pvd does not name its files"
 }
 
-# Ctrl-C, and SIGKILL a while after a checkpoint. Where the machine is quick these runs get farther: the end is chosen behind both. Frames are at the
-# same times with either end, the first picture is before the checkpoint, the second one after it.
+# Ctrl-C, and SIGKILL a while after a checkpoint. Where the machine is quick these runs get farther:
+# the end is chosen behind both. Frames are at the same times with either end, the first picture is
+# before the checkpoint, the second one after it.
 goes_on() { # name, interval of checkpoints, of frames, driver, options...
     local name=$1 interval=$2 frames=$3 end first second
     shift 3
@@ -91,7 +93,7 @@ runs 0 "${tank[@]}" --t-end 0.4 --frames 4 --pictures 0.01 --resume --out longer
 grep -q "the run in 'longer' reached its end; its last steps from" log || fail "a run that is done does not say so: $(cat log)"
 same at_once longer
 
-# what cannot be gone on with
+# runs that cannot be resumed
 rm -rf old && cp -r surge old && rm old/checkpoint.mps
 refused 'reached its end, t = ' old sloshing_surge --dp 0.025 --t-end 0.1
 grep -q 'has no checkpoint; give a later --t-end' log || fail "a finished run without checkpoint: $(cat log)"
@@ -118,7 +120,7 @@ rm -rf damaged && cp -r longer damaged && echo more >>damaged/frames.pvd
 runs 1 "${tank[@]}" --t-end 0.5 --resume --out damaged
 grep -q 'frames.pvd' log || fail "a series that is not ours: $(cat log)"
 
-# a run that begins anew leaves no checkpoint of an older one
+# a restarted run removes the checkpoint of the older one
 runs 0 "${tank[@]}" --t-end 0.01 --frames 0 --out longer --overwrite
 [ ! -e longer/checkpoint.mps ] || fail "a checkpoint stays behind"
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Short runs with known answers, coarse and on one thread: rest, a standing wave, a surging and a rolling tank, 3-D.
- * The still level is layers * dp, where the centres of the top layer lie. */
+/* Short runs with known answers, coarse and on one thread: rest, a standing wave, a surging and a
+ * rolling tank, 3-D. The still level is layers * dp, at the centres of the top layer. */
 #include "../tags.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -37,7 +37,7 @@ static const double rho0 = 1000, g = 9.81;
         if (!(got_ <= limit_)) fail_msg("%s is %g, at most %g", what, got_, limit_); \
     } while (0)
 
-/* ---- a run and what was measured after each of its steps ------------------------------------------------------- */
+/* ---- a run and what was measured after each of its steps ------------------------------------- */
 
 typedef struct row {
     double t, value[PROBES][VALUES];
@@ -138,7 +138,8 @@ static double mean_kinetic(const record *r, double from, double to)
     return sum / n;
 }
 
-/* Move the fluid off its lattice by up to `amount` a direction: a perfect lattice is at rest to rounding, which proves little. */
+/* Move the fluid off its lattice by up to `amount` a direction: a perfect lattice is at rest to
+ * rounding, which proves little. */
 static void jitter(mps_sim *sim, double amount)
 {
     const int32_t *kind;
@@ -153,7 +154,7 @@ static void jitter(mps_sim *sim, double amount)
     OK(sim, mps_lease_end(sim, &x));
 }
 
-/* ---- rest -------------------------------------------------------------------------------------------------------- */
+/* ---- rest ------------------------------------------------------------------------------------ */
 
 /* Pressures within 2 % of rho g h, noise too. */
 static void check_rest(record *r, double level, const double *height, double t0, double t_end)
@@ -198,9 +199,10 @@ static void static_tank_3d(void **state)
     record_close(&r);
 }
 
-/* ---- waves ------------------------------------------------------------------------------------------------------- */
+/* ---- waves ----------------------------------------------------------------------------------- */
 
-/* Water of the first standing wave: the lattice displaced as linear theory does, column tops on a cos(k x). */
+/* Water of the first standing wave: the lattice displaced as linear theory does, column tops on a
+ * cos(k x). */
 static void add_wave(mps_sim *sim, double dp, double length, double depth, double a)
 {
     const double k = acos(-1.0) / length;
@@ -223,7 +225,7 @@ static void add_wave(mps_sim *sim, double dp, double length, double depth, doubl
     free(x);
 }
 
-/* Amplitude of the best a cos(wt) + b for a probe, and what it leaves. */
+/* Amplitude of the least-squares fit a cos(wt) + b of a probe, and its residual. */
 static double fit_cosine(const record *r, double level, double omega, double *amplitude)
 {
     double n = 0, c = 0, cc = 0, y = 0, yc = 0, rest = 0;
@@ -274,7 +276,8 @@ static void surge(mps_sim *sim, int32_t start)
     OK(sim, mps_motion_harmonics_set(sim, 1, &motion));
 }
 
-/* Largest value of the first probe up to t_end, its time by a parabola through the largest row and its neighbours at +-span. */
+/* Largest value of the first probe up to t_end, its time by a parabola through the largest row and
+ * its neighbours at +-span. */
 static double crest(const record *r, double from, double *t)
 {
     int64_t top = -1;
@@ -307,7 +310,8 @@ static void surge_tank(void **state)
     record_close(&r);
 }
 
-/* The liquid has the tank's speed when the first step begins and only its weight acts on it, or the walls push it in one step. */
+/* The liquid has the tank's speed when the first step begins and only its weight acts on it, or the
+ * walls push it in one step. */
 static void start_conventions(void **state)
 {
     (void)state;
@@ -331,10 +335,11 @@ static void start_conventions(void **state)
     assert_true(first[MPS_START_AT_REST] > 3 * still);
 }
 
-/* ---- rolling ----------------------------------------------------------------------------------------------------- */
+/* ---- rolling --------------------------------------------------------------------------------- */
 
-/* Impulse of the force on the tank against the liquid's momentum, over windows of 0.1 s, in parts of the weight's. The
- * half cells between the walls and the first columns are liquid too, which carries no particle. */
+/* Impulse of the force on the tank against the liquid's momentum, over windows of 0.1 s, in parts
+ * of the weight's. The half cells between the walls and the first columns are liquid too, which
+ * carries no particle. */
 static void check_forces(const record *r, int32_t force, double from, double share)
 {
     double worst = 0, sum[2] = {0, 0}, scale = 1;
@@ -381,7 +386,8 @@ static void rolling_tank(void **state)
     record_close(&r);
 }
 
-/* A closed tank full of water has no pressure level: only differences mean something, here rho L a between the ends. */
+/* A closed tank full of water has no pressure datum: only differences are meaningful, here rho L a
+ * between the ends. */
 static void full_tank(void **state)
 {
     (void)state;
@@ -413,7 +419,7 @@ static void full_tank(void **state)
     record_close(&r);
 }
 
-/* The papers' equations to the letter step, and hold the hydrostatic pressure for a while. */
+/* The literal equations of the papers run, and keep the hydrostatic pressure for some time. */
 static void paper_preset(void **state)
 {
     (void)state;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Side walls in 2-D (friction.history) against the same tank in 3-D, where they have particles: a shallow liquid in a thin tank that rolls,
- * as in the driver sloshing_roll, at its spacing. The liquid is 500 times as viscous as water, so that the layers, a quarter of the width, are
- * two spacings thick and 3-D resolves them. */
+/* Side walls in 2-D (friction.history) against the same tank in 3-D, where they have particles: a
+ * shallow liquid in a thin tank that rolls, as in the driver sloshing_roll, at its spacing. The
+ * liquid is 500 times as viscous as water, so that the layers, a quarter of the width, are two
+ * spacings thick and 3-D resolves them. */
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -27,8 +28,9 @@ static const double INTERVAL = 0.01;
                      (sim) ? mps_sim_error(sim) : "no handle");     \
     } while (0)
 
-/* What a run shows: mean velocity of the liquid along the tank; of both ends, left first, the largest height of the surface above the
- * still level, when, and the largest pressure at the still level. Of the left end after 2 s, of the right end before. */
+/* Results of a run: mean velocity of the liquid along the tank; of both ends, left first, the
+ * largest height of the surface above the still level, when, and the largest pressure at the still
+ * level. Of the left end after 2 s, of the right end before. */
 typedef struct seen {
     double u[TIMES], run_up[PASS], when[PASS], pressure[PASS];
 } seen;
@@ -128,8 +130,9 @@ static double deviation(const seen *a, const seen *b)
     return sqrt(difference / size);
 }
 
-/* Mean velocity, speed of the crest from end to end and first pressures of both: within 15 %. Without side walls the mean velocity is off by
- * more than half of it. Heights are shown only: in 3-D they are those in the middle of the width. */
+/* Mean velocity, speed of the crest from end to end and first pressures of both: within 15 %.
+ * Without side walls the mean velocity is off by more than half of it. Heights are shown only: in
+ * 3-D they are those in the middle of the width. */
 static void as_in_3d(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layers thinner than the spacing at plates that start or swing; 3-D with layers of 4 dp: test_stokes_plates_long.c. */
+/* Layers thinner than the spacing at plates that start or swing; 3-D with layers of 4 dp:
+ * test_stokes_plates_long.c. */
 #include "stokes_plates.h"
 
 /* Stokes' second problem, one and a half periods from rest: within 1 %. */
@@ -23,7 +24,8 @@ static void swinging(void **state)
         }
 }
 
-/* Stokes' first problem, until the layer sqrt(4 nu t) is 4 dp thick, from 0.1 dp on: within 1 % at all times. */
+/* Stokes' first problem, until the layer sqrt(4 nu t) is 4 dp thick, from 0.1 dp on: within 1 % at
+ * all times. */
 static void starting(void **state)
 {
     (void)state;

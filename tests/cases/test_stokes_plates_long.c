@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plates that swing in 3-D with layers of 4 dp: a box wide enough that its ends do not reach the middle. */
+/* Plates that swing in 3-D with layers of 4 dp: a box wide enough that its ends do not reach the
+ * middle. */
 #include "stokes_plates.h"
 
 /* Stokes' second problem, one and a half periods from rest: within 1 %. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs in tanks that are not whole in dp: at rest, with a plate, and a standing wave. The cells are stretched by .3 to 8 %. */
+/* Runs in tanks that are not whole in dp: at rest, with a plate, and a standing wave. The cells are
+ * stretched by .3 to 8 %. */
 #include "../unit/tank_fixture.h"
 #include <stdbool.h>
 #include <stdlib.h>
@@ -137,7 +138,8 @@ static double period(double dp, const double *size, double depth)
     return (zero[7] - zero[1]) / 3 / (2 * PI / sqrt(G * k * tanh(k * top)));
 }
 
-/* Waves of 20 mm in half a metre have periods .1 to .4 % longer than linear ones, and a stretched lattice changes them by less than .1 %. */
+/* Waves of 20 mm in half a metre have periods .1 to .4 % longer than linear ones, and a stretched
+ * lattice changes them by less than .1 %. */
 static void standing_wave(void **state)
 {
     static const double size[3][2] = {{1, 0.7}, {1.009, 0.7}, {1.009, 0.69}};

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Hosts may trap floating-point exceptions, as OpenFOAM and gfortran -ffpe-trap do: no operation of an ordinary run is invalid, divides by
- * zero or overflows. Without traps (other C libraries, some processors) and with clang these tests are skipped. */
+/* Applications may trap floating-point exceptions, as OpenFOAM and gfortran -ffpe-trap do: no
+ * operation of an ordinary run is invalid, divides by zero or overflows. Without traps (other C
+ * libraries, some processors) and with clang these tests are skipped. */
 #ifdef __linux__
 #define _GNU_SOURCE /* feenableexcept() */
 #endif
@@ -55,7 +56,7 @@ typedef struct scene {
     const char *name, *preset, *solver, *preconditioner;
     int32_t dim;
     double t_end;
-    bool resting;    /* the tank stands still and is calm */
+    bool resting;    /* the tank is at rest with calm liquid */
     bool weightless; /* without gravity */
 } scene;
 

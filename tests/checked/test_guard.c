@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The checked build: a verb that writes what it does not declare fails with the names of its model
- * and of the channel, and values do not outlive their step. */
+/* The checked build: a verb that writes undeclared arrays fails with the names of its model and of
+ * the channel; values of a step are cleared at its end. */
 #include "model_fixture.h"
 #include <stdio.h>
 
 static struct {
     double *heat; /* the array, kept beyond the step */
-    int thief;    /* index of the array that the verb writes without leave; -1: none */
+    int thief;    /* index of the undeclared array that the verb writes; -1: none */
 } test;
 
 static const mps_channel heat[] = {
@@ -42,7 +42,7 @@ static int steal(mps_stage *s)
     return 0;
 }
 
-/* The same with leave. */
+/* A declared write. */
 static int take(mps_stage *s)
 {
     double *given = s->data[0];
@@ -95,7 +95,7 @@ static void undeclared_writes(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What was written without leave to a velocity or pressure is gone with the failed step. */
+/* Undeclared writes to velocity or pressure are undone with the failed step. */
 static void state_after_it(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void state_after_it(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Between two steps an array of a step holds nothing. */
+/* Between two steps an array of MPS_LIFE_STEP has no valid values. */
 static void nothing_outlives_its_step(void **state)
 {
     (void)state;

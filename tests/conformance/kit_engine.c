@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks as threads. A rank posts pointers, a barrier lets the others read them, a second barrier lets the owner go on. Space is cut by
- * recursive coordinate bisection, which each rank computes for itself from the places of all. */
+/* Ranks as threads. A rank posts pointers; after a barrier the others read them, after a second
+ * barrier the owner continues. Space is partitioned by recursive coordinate bisection, which each
+ * rank computes itself from all positions. */
 #ifndef _POSIX_C_SOURCE
 #define _POSIX_C_SOURCE 200809L
 #endif
@@ -17,7 +18,7 @@ enum { RANKS = 64, TEXT = 512 };
 typedef struct cut {
     int32_t axis; /* -1: all of it belongs to rank `first` */
     double at;
-    int32_t first, middle, end; /* ranks first..middle-1 lie below, middle..end-1 not below */
+    int32_t first, middle, end; /* ranks first..middle-1 are below, middle..end-1 are not */
 } cut;
 
 /* A rank: what it posts, and its copy of the cuts. */
@@ -27,7 +28,7 @@ typedef struct seat {
     cut cut[2 * RANKS];
     /* posted */
     const char *call;
-    int64_t size; /* of what all ranks must give alike; 0: each its own */
+    int64_t size; /* size of an argument that must be equal on all ranks; 0: different ones */
     const void *out;
     const mps_route *route;
     void *in;
@@ -39,7 +40,7 @@ typedef struct seat {
 } seat;
 
 struct kit_engine_team {
-    int32_t ranks, waiting, gone; /* gone: ranks whose body has returned */
+    int32_t ranks, waiting, gone; /* gone: ranks whose function has returned */
     int64_t round;
     bool failed;
     char text[TEXT];
@@ -91,7 +92,8 @@ static void compare_calls(kit_engine_team *t)
     }
 }
 
-/* With the lock: ranks that wait for one whose body has returned would wait for ever. */
+/* Call with the lock held: ranks that wait for a rank whose function has returned would wait
+ * forever. */
 static void look_for_gone(kit_engine_team *t)
 {
     char text[TEXT];
@@ -184,7 +186,7 @@ static int longest_axis(const point *p, int64_t n, int32_t dim)
     return axis;
 }
 
-/* Share of the weight that goes below a cut. */
+/* Fraction of the weight below a cut. */
 static double share_of(seat *s, int32_t first, int32_t middle, int32_t end)
 {
     const double even = (double)(middle - first) / (end - first);
@@ -237,7 +239,7 @@ static int partition(void *self, int32_t dim, int64_t n, const double *x, const 
     return barrier(s, "partition");
 }
 
-/* Place in cut[] of the part above: a cut is followed by all that lies below it. */
+/* Index in cut[] of the part above: a cut is followed by all cuts below it. */
 static int32_t above(const seat *s, int32_t k)
 {
     return k + 1 + 2 * (s->cut[k].middle - s->cut[k].first) - 1;

@@ -11,8 +11,8 @@ MPS_BEGIN_DECLS
 
 typedef struct kit_engine_team kit_engine_team;
 
-/* A team of ranks. @param skew  0: space is cut in halves; else at random shares, new ones at each
- * partition */
+/* A team of ranks. @param skew  0: space is cut in halves; else at random fractions, new ones at
+ * each partition */
 kit_engine_team *kit_engine_create(int32_t ranks, uint32_t skew);
 void kit_engine_destroy(kit_engine_team *team);
 /* The table for one rank of the team. */

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies of what a verb may write, and runs of the verb on them; for the kit of models. */
+/* Copies of the arrays that a verb may write, and runs of the verb on them; for the kit of
+ * models. */
 #ifndef MODEL_COPIES_H
 #define MODEL_COPIES_H
 
@@ -32,8 +33,8 @@ size_t kit_bytes(const kit_shape *k, int64_t n);
 /* @return NULL: no such channel */
 const kit_shape *kit_shape_of(const mps_use *use);
 
-/* @param from  the copy that is copied, or NULL: the arrays of the stage
- * @return whether there was memory; kit_release() in any case */
+/* @param from  source of the copy, or NULL: the arrays of the stage @return false: no memory; call
+ *              kit_release() in any case */
 bool kit_copy(const mps_stage *s, const mps_verb *verb, const kit_arrays *from, kit_arrays *a);
 void kit_release(kit_arrays *a);
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The checks of the kit of models. Each builds its scenes and reports what is wrong. */
+/* The checks of the kit of models. Each builds its scenes and reports errors. */
 #include "model_kit.h"
 #include "model_scenes.h"
 #include <math.h>
@@ -20,7 +20,8 @@ typedef struct kit {
     int scenes; /* that accept the model */
     kit_case scene[KIT_SCENES];
     kit_state state[KIT_SCENES]; /* after its steps, with one thread */
-    bool unsteady;               /* two runs differ: what compares runs would give a wrong reason */
+    bool unsteady;               /* two equal runs differ: checks that compare runs would report a
+                                    wrong reason */
     bool acted[MOST_VERBS];      /* the verb changes something in a scene */
 } kit;
 
@@ -87,7 +88,7 @@ static void check_table(kit *k)
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
 
-/* A model may refuse a scene, e.g. for want of a gas; its message says why. */
+/* A model may refuse a scene, e.g. without a gas; its message is the reason. */
 static bool refused(mps_status status)
 {
     return status == MPS_E_STATE || status == MPS_E_PLUGIN;
@@ -177,7 +178,7 @@ static void check_ranks(kit *k)
 }
 
 /* Largest difference of two states over the largest value of its component. `b` has the fluid, the
- * last particles, in the reverse order for each phase; positions tell who is who. */
+ * last particles, in the reverse order for each phase; positions identify the particles. */
 static double apart(const kit_state *a, const kit_state *b, int32_t dim)
 {
     double worst = 0;

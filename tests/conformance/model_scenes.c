@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Scenes of the kit of models: a tank that surges, half full of water; with air in "mmps", and in
- * 2-D without air with a drop that falls. */
+ * 2-D without air with a falling droplet. */
 #include "model_scenes.h"
 #include <math.h>
 #include <stdio.h>
@@ -32,7 +32,8 @@ static bool two_phases(const kit_case *c)
     return strncmp(c->preset, "mmps", 4) == 0;
 }
 
-/* A little off the lattice, so that no sum vanishes by symmetry; a function of the place. */
+/* Slightly displaced from the lattice, so that no sum vanishes by symmetry; a function of the
+ * position. */
 static double jitter(int a, int b, int c, int d)
 {
     return 0.05 * DP * sin(1.0 + 12.9898 * a + 78.233 * b + 37.719 * c + 4.7 * d);
@@ -74,7 +75,7 @@ static void turn_round(double *x, int64_t count, int dim)
         }
 }
 
-/* Fluid of a phase, with a velocity that turns. */
+/* Fluid of a phase, with a rotating velocity. */
 static mps_status add_fluid(const kit_case *c, mps_sim *sim, int32_t phase, part p)
 {
     const size_t most = (size_t)SIDE_2D * SIDE_2D * SIDE_3D;
@@ -176,7 +177,7 @@ mps_status kit_steps(mps_sim *sim, int steps)
 
 enum { LIBRARY_FIELDS = 4 };
 
-/* Fields that are compared: the library's, and channels that live with their particles. */
+/* Compared fields: those of the library, and channels of MPS_LIFE_PARTICLE. */
 static int32_t field_name(const mps_sim *sim, int32_t index, const char **name)
 {
     static const char *const own[LIBRARY_FIELDS] = {"position", "velocity", "pressure", "density"};
@@ -194,7 +195,7 @@ static int32_t field_name(const mps_sim *sim, int32_t index, const char **name)
     return 0;
 }
 
-/* Copy one field beside those copied before. */
+/* Append a copy of one field to those copied before. */
 static bool append(mps_sim *sim, const char *name, const int64_t *place, kit_state *s)
 {
     mps_lease lease = {.struct_size = sizeof lease};

@@ -38,7 +38,7 @@ mps_status kit_switch_on(const kit_case *scene, mps_sim *sim);
 /* Steps; the first failure ends them. */
 mps_status kit_steps(mps_sim *sim, int steps);
 
-/* Columns of a state that hold one field. */
+/* Columns of a state that contain one field. */
 typedef struct kit_field {
     char name[32];
     int32_t first, components;
@@ -53,10 +53,10 @@ typedef struct kit_state {
     int32_t stride, fields;
     kit_field field[KIT_FIELDS];
     int64_t *id;
-    double *data; /* [n*stride], the fields beside each other */
+    double *data; /* [n*stride], fields one after the other in a row */
 } kit_state;
 
-/* @return whether there was memory */
+/* @return false: no memory */
 bool kit_state_get(mps_sim *sim, kit_state *state);
 void kit_state_free(kit_state *state);
 bool kit_state_finite(const kit_state *state);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Looks at each call of each verb of a model. The table of the model is copied under another name,
- * with verbs that run the model's own: once on copies of its arrays in which something was changed,
- * and once on the real arrays. What differs between both tells what the verb reads and writes. A
- * difference that also two runs on the same values have comes from elsewhere, e.g. a counter. */
+/* Observes each call of each verb of a model. The table of the model is copied under another name,
+ * with verbs that run those of the model: once on modified copies of its arrays, and once on the
+ * real arrays. Differences between both show what the verb reads and writes. A difference that also
+ * occurs between two runs on the same values has another reason, e.g. a counter. */
 #include "model_copies.h"
 #include <math.h>
 #include <stdio.h>
@@ -42,7 +42,7 @@ static void say_repeat(const mps_stage *s)
                             kit_hook(s->hook));
 }
 
-/* Whether a run on the values before gives what the run on the real arrays gave. */
+/* Whether a run on the previous values gives the result of the run on the real arrays. */
 static bool repeats(const mps_stage *s, const mps_verb *verb, const kit_arrays *before)
 {
     kit_arrays again;
@@ -140,8 +140,8 @@ static double distance(const mps_view *v, int64_t i, int64_t j)
     return sqrt(sum);
 }
 
-/* Other rows that changed beside the row: a neighbour read it. If rows farther away than neighbours
- * changed too, a sum over all rows went through them, which is allowed. */
+/* Rows that changed in addition to the modified row: a neighbour read it. If rows beyond its
+ * neighbours changed too, the verb used a sum over all rows, which is allowed. */
 static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arrays *before,
                          const kit_arrays *a, int64_t row, const char *channel)
 {
@@ -194,7 +194,7 @@ static int64_t width(const kit_shape *k)
     return (int64_t)(k->element / sizeof(double));
 }
 
-/* What another model added before, as large as what the verb leaves. */
+/* A contribution of another model, as large as the result of the verb. */
 static double share(int number, int32_t use, int64_t v)
 {
     const double largest = watch.largest[number][use];
@@ -210,8 +210,8 @@ static void add_share(const mps_stage *s, const mps_verb *verb, int number, kit_
     }
 }
 
-/* The verb leaves the share of the other model as it was. If it says after whom it runs, it may
- * depend on what is there, e.g. a limit of the sum; then the share must not be lost. */
+/* The verb preserves the contribution of the other model. If the verb has `after`, its result may
+ * depend on it, e.g. a limit of the sum; then the contribution must not be lost. */
 static void compare_sums(const mps_stage *s, const mps_verb *verb, int number,
                          const kit_arrays *before, const kit_arrays *a)
 {
@@ -330,7 +330,7 @@ static void remember(const mps_stage *s, int number, const kit_arrays *before)
     }
 }
 
-/* The first call looks for scratch. */
+/* The first call determines the workspace. */
 static int observe(mps_stage *s, int number)
 {
     const mps_verb *verb = &watch.ops->verbs[number];

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The checks of the solver kit; each builds its system, runs the pair and says what is wrong. */
+/* The checks of the solver kit; each builds its system, runs the pair and reports errors. */
 #include "solver_kit.h"
 #include "solver_ranks.h"
 #include <math.h>
@@ -95,7 +95,7 @@ static double drift(const mps_ppe_problem *problem, const double *p)
     return worst / largest;
 }
 
-/* What holds for every answer, good or bad. */
+/* Requirements on every result, converged or not. */
 static void check_honest(pair *k, const mps_ppe_problem *problem, const double *p,
                          const mps_ppe_result *result, const char *name)
 {
@@ -123,7 +123,7 @@ static void check_honest(pair *k, const mps_ppe_problem *problem, const double *
                name, truth.divergence, problem->divergence);
 }
 
-/* Solve from `guess` (NULL: zero) and check what always holds. @return p, to be freed */
+/* Solve from `guess` (NULL: zero) and check the general requirements. @return p, to be freed */
 static double *solve(pair *k, const mps_ppe_problem *problem, const double *guess,
                      mps_ppe_result *result, const char *name)
 {
@@ -230,7 +230,7 @@ static void check_warm_start(pair *k)
     for (int i = 0; i < 5; i += 4) {
         kit_system *s = kit_lattice_system(&lattices[i].lattice);
         mps_ppe_result result = {.struct_size = sizeof result};
-        /* the level of a closed tank is arbitrary: it must not cost anything */
+        /* the pressure level of a closed tank is arbitrary: it must not need iterations */
         for (int64_t n = 0; i && n < s->problem.n; n++) s->exact[n] += 5000;
         double *p = solve(k, &s->problem, s->exact, &result, "warm start");
         EXPECT(k, result.reason == MPS_PPE_CONVERGED && result.iterations <= 1,
@@ -345,7 +345,7 @@ static void check_threads(pair *k)
     kit_system_free(s);
 }
 
-/* One state over systems that grow and shrink gives the same bytes as a fresh one. */
+/* One state for systems of varying size gives the same bytes as a new state. */
 static void check_reuse(pair *k)
 {
     static const int order[] = {4, 0, 2, 6, 0};
@@ -414,7 +414,7 @@ static bool table_complete(pair *k)
     return k->failures == 0;
 }
 
-/* Returns the failures, which have been told; without any this is. */
+/* Returns the failures, which are already reported; reports a success otherwise. */
 static int report(const pair *k, int checks)
 {
     const char *const solver = k->solver ? k->solver->name : "", *const pc = k->pc && k->pc->name
@@ -449,7 +449,7 @@ static double dot(const double *a, const double *b, int64_t n)
     return s;
 }
 
-/* M^-1 of two vectors: linear, finite; symmetric and positive if it says so. */
+/* M^-1 of two vectors: linear, finite; symmetric and positive definite if its table says so. */
 static void check_apply(pair *k, void *self, const kit_system *s, const char *name)
 {
     int64_t n = s->problem.n;

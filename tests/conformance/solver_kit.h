@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conformance kit of pressure solvers. Give it your tables; it builds systems like those of MPS,
- * solves them and reports which demands of <mps/ppe.h> the solver breaks. Needs libmps and the C
- * library with POSIX threads.
+/* Conformance kit of pressure solvers. It builds systems like those of MPS, solves them and reports
+ * violated requirements of <mps/ppe.h>. Needs libmps and the C library with POSIX threads.
  *
  * The last check runs the tables in a small dam break on one rank and on two, which are threads.
  * With `ranks` 1 both solutions must agree to 1e-9; with `ranks` 0 the library must refuse the
@@ -30,7 +29,7 @@ typedef struct kit_lattice {
     int open;
     double re;           /* kernel radius [dp] */
     double contrast;     /* density of the upper half of a box is 1000 / contrast */
-    double compressible; /* share of the mean diagonal added to every row as a shift */
+    double compressible; /* fraction of the mean diagonal added to every row as a shift */
 } kit_lattice;
 
 /* NULL when out of memory. */
@@ -60,8 +59,8 @@ double kit_difference(const double *a, const double *b, int64_t n);
 /* Run all checks. @param pc NULL for none. 
  * @return number of failed checks; each is printed on stderr */
 int kit_check_solver(const mps_solver_ops *solver, const mps_preconditioner_ops *pc);
-/* Checks of a preconditioner alone: linear, finite, no leak; symmetric and positive definite if its
- * table says so. */
+/* Checks of a single preconditioner: linear, finite, no leak; symmetric and positive definite if
+ * its table says so. */
 int kit_check_preconditioner(const mps_preconditioner_ops *pc);
 
 #endif

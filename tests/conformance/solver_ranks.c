@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A dam break of a few steps with the solver under test: on one rank, and on two, which are threads. */
+/* A dam break of a few steps with the solver under test: on one rank, and on two, which are
+ * threads. */
 #include "solver_ranks.h"
 #include "kit_engine.h"
 #include <math.h>
@@ -10,7 +11,7 @@
 
 enum { RANKS = 2, STEPS = 2, TEXT = 512, NAME = 80 };
 
-/* Solutions agree up to this share of the largest norm. */
+/* Relative tolerance of solutions, to the largest norm. */
 static const double AGREE = 1e-9;
 
 /* A run: the pressures after the last step, by id, and how it ended on each rank. */

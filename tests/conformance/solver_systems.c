@@ -229,9 +229,9 @@ kit_system *kit_lattice_system(const kit_lattice *o)
 
 /* ---- threads ---- */
 
-/* Threads that stay: a solution has thousands of loops, and a thread takes longer to begin than most
- * of them. Loops of several callers go one after the other: `caller` is held during a loop, `lock`
- * while the rest is looked at. */
+/* Persistent threads: a solution has thousands of loops, and starting a thread takes longer than
+ * most of them. Loops of several callers are serialised: `caller` is locked during a loop, `lock`
+ * during access to the other members. */
 enum { MOST_THREADS = 64 };
 typedef struct team_state {
     pthread_mutex_t caller, lock;
@@ -246,7 +246,7 @@ static team_state team = {.caller = PTHREAD_MUTEX_INITIALIZER,
                           .begun = PTHREAD_COND_INITIALIZER,
                           .ended = PTHREAD_COND_INITIALIZER};
 
-/* Do the next part; the lock is held before and after. */
+/* Process the next part; the lock is held on entry and return. */
 static void do_part(void)
 {
     const int32_t part = team.next++;

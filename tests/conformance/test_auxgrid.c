@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What `auxgrid` computes depends on the particles and their rows alone: not on threads, nor on which particle comes first, nor
- * on what is far away. */
+/* Results of `auxgrid` depend on the particles and their rows only: not on threads, the order of
+ * particles or distant particles. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -131,7 +131,8 @@ static double difference_in_two_orders(const kit_lattice *lattice, void (*change
     return difference / largest;
 }
 
-/* One density: links are rounded to floats. Two: they are exact sums, so all but the last digits agree. */
+/* One density: links are rounded to floats. Two: they are exact sums, so all but the last digits
+ * agree. */
 static void nearly_same_in_any_order(void **state)
 {
     (void)state;
@@ -140,7 +141,8 @@ static void nearly_same_in_any_order(void **state)
                     (lattices[k].contrast > 1 ? 1e-12 : 1e-6));
 }
 
-/* One particle in each cell, on a lattice of powers of two, so that no sum over the rows is rounded. */
+/* One particle in each cell, on a lattice of powers of two, so that no sum over the rows is
+ * rounded. */
 static void spread_out(kit_system *s)
 {
     const int64_t n = s->problem.n;
@@ -157,7 +159,7 @@ static void spread_out(kit_system *s)
     }
 }
 
-/* Cells appear in another order, and there are no other sums that could be rounded: the same bytes. */
+/* Cells are in another order, and there are no other sums with rounding: the same bytes. */
 static void same_for_any_order_of_cells(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the kit of models prints: a line for a model that passes, and the reason for models that have
+/* Output of the kit of models: a line for a model that passes, and the reason for models that have
  * no effect, overwrite what others added, move solids, do not repeat or differ on two ranks. */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -151,7 +151,7 @@ static void overwrites(void **state)
     TOLD("MPS_FORCE: of ");
     TOLD(" that another model added to 'acceleration', 0 is left: add with +=, do not overwrite\n");
     TOLD("failed: KIT_ADDS\n");
-    verb.after = "*"; /* it may depend on what is there, but not drop it */
+    verb.after = "*"; /* it may depend on the existing contribution, but not discard it */
     assert_int_equal(check_told(&ops), KIT_ADDS);
     verb.hook = MPS_GRADIENT;
     assert_int_equal(check_told(&ops), KIT_ADDS);
@@ -324,7 +324,7 @@ MPS_ROW void blow_row(const int dim, const mps_view *v, const wind *f, int64_t i
 }
 MPS_ROWS(blow_rows, blow_row, wind)
 
-/* Counts fluid in a loop of its own, which takes ghosts too and leaves out what other ranks own. */
+/* Counts fluid in its own loop, which includes ghosts and omits particles of other ranks. */
 static int push_by_loop(mps_stage *s)
 {
     wind f = {.a = arrays(s).a};

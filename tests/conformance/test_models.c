@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* All built-in models through the kit of models, and models that break one rule each: the kit says
- * which. */
+/* Tests of all built-in models with the kit of models, and of models that violate one rule each:
+ * the kit reports which. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -56,7 +56,8 @@ static mps_status little_suction(void *user, mps_sim *sim)
     return mps_model_set(sim, "cavitation", "least", 1);
 }
 
-/* Nothing but the model fixes the level of incompressible air; water alone has a surface. */
+/* Only the model provides a pressure datum for incompressible air; water alone has a free
+ * surface. */
 static mps_status no_gas(void *user, mps_sim *sim)
 {
     if (one_phase(user, sim) == MPS_OK) return MPS_E_STATE;
@@ -131,7 +132,7 @@ static int write_density(mps_stage *s)
 static void test_writes_what_it_reads(void **state)
 {
     (void)state;
-    /* a checked library refuses the step before the kit looks */
+    /* a checked library refuses the step before the check of the kit */
     assert_true(check_verb(write_density) & (KIT_WRITES | KIT_RUN));
 }
 
@@ -175,7 +176,7 @@ static void test_writes_rows_of_neighbours(void **state)
     assert_true(check_verb(write_neighbours) & KIT_OWN_ROW);
 }
 
-/* A channel of its own that it says it writes only, and adds to. */
+/* Its own channel, declared as write-only, to which it adds. */
 static int add_to_own(mps_stage *s)
 {
     double *own = s->data[0];
@@ -274,7 +275,7 @@ static void test_state_outside_of_channels(void **state)
     assert_true(kit_check_model(&ops, NULL, NULL) & KIT_CHECKPOINT);
 }
 
-/* Must be there from the first step on. */
+/* Must exist from the first step on. */
 static int miss_steps(mps_stage *s)
 {
     int64_t *calls = s->self;
@@ -312,7 +313,7 @@ static void test_state_of_all_handles(void **state)
     assert_true(kit_check_model(&ops, NULL, NULL) & KIT_HANDLES);
 }
 
-/* Two blocks; the first is lost if the second is not there. */
+/* Two blocks; the first is leaked if the second allocation fails. */
 static int make_leak(const mps_allocator *allocator, void **self)
 {
     void **first = allocator->alloc(allocator->user, sizeof(void *));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every built-in solver with every built-in preconditioner through the solver kit, and all against the direct one. */
+/* Tests of every built-in solver with every built-in preconditioner with the solver kit, and all
+ * against the direct solver. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -135,7 +136,8 @@ static void test_iterations(void **state)
     assert_true(iterations_of(&mps__preconditioner_ic0, &lattice) < jacobi / 3);
 }
 
-/* The background grid makes the iterations independent of the number of unknowns and of the densities. */
+/* The background grid makes the iterations independent of the number of unknowns and of the
+ * densities. */
 static void test_auxgrid_iterations(void **state)
 {
     (void)state;
@@ -189,7 +191,7 @@ static void test_auxgrid_far_drop(void **state)
     kit_system_free(s);
 }
 
-/* What is not finite in the matrix is said, and the state serves again afterwards. */
+/* Non-finite entries of the matrix are reported, and the state can be used again. */
 static void test_auxgrid_nan(void **state)
 {
     (void)state;
@@ -220,7 +222,8 @@ static void test_auxgrid_nan(void **state)
 static void test_ic0_shift(void **state)
 {
     (void)state;
-    /* positive definite (eigenvalues 0.0034 .. 6.8), yet the factorisation without fill has a pivot of -5 (Kershaw 1978) */
+    /* positive definite (eigenvalues 0.0034 .. 6.8), yet the factorisation without fill has a pivot
+     * of -5 (Kershaw 1978) */
     static const double a[16] = {3, -2, 0, 2, -2, 3, -2, 0, 0, -2, 3, -2, 2, 0, -2, 3},
                         exact[4] = {1, 2, 3, 4};
     kit_system *s = kit_dense_system(4, a, exact);
@@ -244,7 +247,8 @@ static void make_gas(kit_system *s, double law, double *gas, double *laws)
     s->problem.law = laws;
 }
 
-/* One row, a p + g (P ln(1 + p/P) - p) = b, against bisection; from p strongly compressed to nearly empty, from any guess. */
+/* One row, a p + g (P ln(1 + p/P) - p) = b, against bisection; from p strongly compressed to nearly
+ * empty, from any guess. */
 static void test_gas_scalar(void **state)
 {
     (void)state;
@@ -274,7 +278,8 @@ static void test_gas_scalar(void **state)
         }
 }
 
-/* Lattices half of gas, with all preconditioners: the exact solution in few iterations, the same bytes with more threads, no leak. */
+/* Lattices half of gas, with all preconditioners: the exact solution in few iterations, the same
+ * bytes with more threads, no leak. */
 static void test_gas_lattice(void **state)
 {
     (void)state;
@@ -348,7 +353,8 @@ static void test_gas_memory(void **state)
     kit_system_free(s);
 }
 
-/* The law: slope 1 at 0, its own derivative, one tangent below -0.99 P, finite for any p; without P linear. */
+/* The law: slope 1 at 0, its own derivative, one tangent below -0.99 P, finite for any p; without P
+ * linear. */
 static void test_gas_law(void **state)
 {
     (void)state;

@@ -37,7 +37,7 @@ static struct {
     void *arguments;
 } s = {.count = 1, .capability = 90, .version = 12040};
 
-/* ---- what tests want ---- */
+/* ---- interface for tests ---- */
 
 void standin_kernels(const char *path)
 {
@@ -219,7 +219,7 @@ int cuStreamSynchronize(cuda_handle stream)
 
 /* ---- memory ---- */
 
-/* The room that holds these bytes. */
+/* The allocation that contains these bytes. */
 static room *room_of(cuda_address address, size_t bytes)
 {
     const char *at = (const char *)(uintptr_t)address;
@@ -338,7 +338,8 @@ int cuModuleUnload(cuda_handle module)
     return 0;
 }
 
-/* What the text of a kernel says of its argument: bytes by value, or 0: an address. -1: there is no such kernel. */
+/* Type of the argument of a kernel, from its text: bytes by value, or 0: an address. -1: no such
+ * kernel. */
 static long argument_of(const char *name)
 {
     char head[160];

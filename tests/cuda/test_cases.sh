@@ -1,9 +1,10 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Each case gives the same bytes of probes.csv, frames and checkpoint on the host and on a GPU, and a checkpoint of one goes on on the other.
-# The GPU is the stand-in for the driver, which runs the kernels by OpenCL. 77: no OpenCL runs here. Cases have the first and the second half there
-# in turn; those that are named have both.
-# MPIRUN in the environment: two ranks with a GPU each have the bytes of a run alone too.
+# Each case gives the same bytes of probes.csv, frames and checkpoint on the host and on a GPU, and
+# a checkpoint of one is resumed on the other. The GPU is the stand-in for the driver, which runs
+# the kernels by OpenCL. 77: no OpenCL. Cases run alternately with the first or the second half on
+# the GPU; named cases run both. MPIRUN in the environment: two ranks with a GPU each also have the
+# bytes of a single process.
 # usage: test_cases.sh PROGRAM CASES FOLDER_OF_STANDIN FOLDER_OF_PLUGIN KERNELS [NAME ..]
 program=$1 cases=$2 standin=$3 plugin=$4 kernels=$5
 shift 5
@@ -21,7 +22,7 @@ fail() {
 gpu() { LD_LIBRARY_PATH=$standin:$plugin STANDIN_KERNELS=$kernels "$program" "$@" --device cuda; }
 host() { "$program" "$@"; }
 
-# Half of a run here, the other half there.
+# Half of a run on the host, the other half on the GPU.
 halves() { # where, where, folder, case, time, options..
     local first=$1 second=$2 folder=$3 case=$4 t=$5
     shift 5
@@ -33,7 +34,8 @@ tested() { # name, case, time, options..
     local name=$1 file folder
     shift
     halves host host "$name.host" "$@" || return
-    # a run of a few steps, all of them fitted to its end, has no checkpoint: the second half begins anew
+    # a run of a few steps, all of them fitted to its end, has no checkpoint: the second half begins
+    # anew
     local files=(probes.csv momentum.csv frames)
     if [ -s "$name.host/checkpoint.mps" ]; then
         files+=(checkpoint.mps)

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps through libmps_cuda and a stand-in for the driver of NVIDIA, whose kernels are run by OpenCL: the bytes of the host; each call of the driver fails
- * in turn. */
+/* Steps with libmps_cuda and a stand-in for NVIDIA's driver, which runs kernels by OpenCL: the
+ * bytes of the host; each call of the driver fails in turn. */
 #include "standin.h"
 #include "scene.h"
 #include <mps/cuda.h>
@@ -38,7 +38,7 @@ static void steps(void **state)
     assert_int_equal(standin_open(), 0);
 }
 
-/* Handles share the kernels of a GPU; the second lives on when the first is gone. */
+/* Handles share the kernels of a GPU; the second remains usable when the first is destroyed. */
 static void two_handles(void **state)
 {
     mps_sim *first = on_gpu("imps", 2), *second = on_gpu("mmps", 2), *host = rolling("mmps", 2);
@@ -91,10 +91,11 @@ static void opening_fails(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Whichever call of the driver fails in a step, the step says so and leaves the state as it was. */
+/* If any call of the driver fails in a step, the step returns an error and the state is
+ * unchanged. */
 static void steps_fail(void **state)
 {
-    /* of the calls about a context some are made to get room, others to launch and copy */
+    /* some calls for a context belong to allocations, others to launches and copies */
     static const struct {
         const char *call;
         int64_t visit;
@@ -111,7 +112,8 @@ static void steps_fail(void **state)
     go(host, 1);
     for (size_t k = 0; k < sizeof fault / sizeof *fault; k++) {
         mps_sim *sim = on_gpu("imps", 2);
-        const bool first = strcmp(fault[k].call, "cuMemAlloc_v2") == 0; /* later there is room */
+        const bool first = strcmp(fault[k].call, "cuMemAlloc_v2") == 0; /* later the allocation
+                                                                           succeeds */
         if (!first) go(sim, 1);
         standin_fail(fault[k].call, fault[k].visit);
         const mps_status status = mps_step(sim, 0.01, NULL);

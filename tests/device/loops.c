@@ -82,7 +82,8 @@ static char *twin_of(twins *t, const block *b)
     return begin;
 }
 
-/* Addresses of the library's memory become those of copies. One of the stack would be of no use on a device. */
+/* Addresses of the library's memory become those of copies. One of the stack would be of no use on
+ * a device. */
 static void translate(twins *t, const char *loop, void *arguments, size_t bytes)
 {
     const uintptr_t here = (uintptr_t)__builtin_frame_address(0);
@@ -117,7 +118,7 @@ typedef struct job {
     twins twins;
 } job;
 
-/* The host's text, as the library runs it. */
+/* The host code, as the library runs it. */
 static void run(const void *host, int64_t begin, int64_t end, mps_exact *sum, double *maximum)
 {
     const job *k = host;

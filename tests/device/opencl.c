@@ -214,7 +214,7 @@ int opencl_join(opencl *o, int64_t n, int32_t sums, mps_exact *sum, int32_t maxi
 
 /* ---- loops, on both sides ---- */
 
-/* Rooms that any word of the arguments points into. */
+/* Allocations to which any word of the arguments points. */
 static void look(opencl *o, const void *arguments, size_t bytes)
 {
     for (size_t at = 0; at + sizeof(void *) <= bytes; at += sizeof(void *)) {
@@ -237,13 +237,13 @@ static bool keep(opencl_room *r)
     return r->copied > 0;
 }
 
-/* Whether a kernel leaves its rows out, as the text of the host does then. */
+/* Whether a kernel is cancelled, as the host code then. */
 static bool left_out(const mps_launch *l)
 {
     return l->unless && *l->unless;
 }
 
-/* The host's text runs on the arrays; its results are kept, and the arrays are as before. */
+/* Run the host code on the arrays, store its results, and restore the arrays. */
 static int run_host(opencl *o, const mps_launch *l, mps_exact *sum, double *maximum)
 {
     for (int k = 0; k < OPENCL_ROOMS; k++) o->room[k].seen = false;
@@ -278,7 +278,7 @@ static void differ(opencl *o, opencl_kernel *k, const char *what, size_t at, con
              (long long)k->launches, what, at, a, b);
 }
 
-/* Trees of rows: threads that meet in them leave other ways to the same roots. */
+/* Union-find trees of rows: concurrent threads give different paths to the same roots. */
 static bool same_trees(const opencl_kernel *k, const opencl_room *r)
 {
     const int32_t n = (int32_t)(r->bytes / sizeof(int32_t));

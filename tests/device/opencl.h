@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Device of OpenCL, such as pocl: runs the kernels of rows.bc. After each loop it runs the text of the host on a copy and compares all bytes. */
+/* An OpenCL device, e.g. pocl: runs the kernels of rows.bc. After each loop it runs the host code
+ * on a copy and compares all bytes. */
 #ifndef OPENCL_H
 #define OPENCL_H
 
@@ -14,14 +15,14 @@ enum { OPENCL_ROOMS = 512, OPENCL_KERNELS = 512, OPENCL_NAME = 80 };
 typedef struct opencl_room {
     char *begin;
     size_t bytes;
-    char *before, *host; /* copies: before a loop, and what the host made of it */
-    size_t copied;       /* bytes that they have room for */
+    char *before, *host; /* copies: before a loop, and after it on the host */
+    size_t copied;       /* capacity of the copies [bytes] */
     bool seen;           /* an argument of the loop points into it */
 } opencl_room;
 
 typedef struct opencl_kernel {
     char name[OPENCL_NAME];
-    cl_kernel kernel; /* NULL: there is none, the host's text runs in its place */
+    cl_kernel kernel; /* NULL: no kernel, the host code runs instead */
     int64_t launches, different;
 } opencl_kernel;
 
@@ -37,14 +38,16 @@ typedef struct opencl {
     char failure[400];
 } opencl;
 
-/* Open the first device of a platform. `bitcode`: path of rows.bc. False: there is no device, `failure` says why. */
+/* Open the first device of a platform. `bitcode`: path of rows.bc. False: no device, `failure` is
+ * the reason. */
 bool opencl_open(opencl *o, const char *bitcode);
 void opencl_close(opencl *o);
 /* Steps of a simulation run on the device from now on. */
 void opencl_attach(opencl *o, mps_sim *sim);
 /* Whether a loop has a kernel. */
 bool opencl_knows(opencl *o, const mps_launch *l);
-/* Room for `count` values of n rows; then sums and maxima of them, as loops get them. @return 0, 1 after a failure */
+/* Allocate `count` values of n rows; then reduce them to sums and maxima, as loops do. @return 0, 1
+ * after a failure */
 double *opencl_terms(opencl *o, int64_t count, int64_t n);
 int opencl_join(opencl *o, int64_t n, int32_t sums, mps_exact *sum, int32_t maxima,
                 double *maximum);

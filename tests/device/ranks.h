@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes on two ranks, threads of this program, with a device each. */
+/* Scenes on two ranks, threads of this program, each with its own device. */
 #ifndef DEVICE_RANKS_H
 #define DEVICE_RANKS_H
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kernels made from the loops of the library give the bytes of the host: each loop of a step runs on both sides. */
+/* Kernels made from the loops of the library give the bytes of the host: each loop of a step runs
+ * on both sides. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 #include "launch.h"
@@ -25,7 +26,8 @@ static mps_sim *rolling(const char *preset, int32_t dim)
     return sim;
 }
 
-/* The same steps on the host and on the device. Statuses are the same too: some models fail beside others. */
+/* Equal steps on the host and on the device, also with equal statuses: some models fail together
+ * with others. */
 static void compare(mps_sim *host, mps_sim *sim, int steps)
 {
     mps_device_info info;
@@ -55,7 +57,7 @@ static void presets(void **state)
             compare(rolling(preset[k], dim), rolling(preset[k], dim), 5);
 }
 
-/* Loops of grids that the host has and of those that a device has. */
+/* Loops of grids of the host and of a device. */
 static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
                                        "auxgrid_transfer__add_turns in 3-D",
                                        "auxgrid_cycle__relax_rows in 2-D",
@@ -119,7 +121,7 @@ static void several_grids(void **state)
     assert_have_run(of_grids, sizeof of_grids / sizeof of_grids[0]);
 }
 
-/* Kernels leave their rows out after conjugate gradients have stopped. */
+/* Kernels are cancelled after conjugate gradients have stopped. */
 static void solutions(void **state)
 {
     mps_sim *sim = new_sim(2, 0.1);
@@ -150,7 +152,7 @@ static void gas_without_a_pocket(void **state)
     for (int32_t dim = 2; dim <= 3; dim++) compare(with_gas(dim), with_gas(dim), 3);
 }
 
-/* Each model of the library beside those of a preset. */
+/* Each model of the library together with those of a preset. */
 static void all_models(void **state)
 {
     mps_model_info m;
@@ -165,7 +167,7 @@ static void all_models(void **state)
     mps_sim_destroy(list);
 }
 
-/* Loops that ran had a kernel, but for those that scripts/device_rows leaves out. */
+/* All loops that ran have a kernel, except those that scripts/device_rows excludes. */
 static void kernels_are_there(void **state)
 {
     static const char *const without[] = {"neighbours__search_parts",
@@ -239,7 +241,7 @@ static void sums_of_any_size(void **state)
 
 /* ---- sums up to each row ---- */
 
-/* Each of its loops is compared with the host's on the way. */
+/* Each of its loops is compared with the host. */
 static void scans_of_any_size(void **state)
 {
     static const int64_t size[] = {0, 1, 63, 64, 65, 1023, 1025, 100000};
@@ -275,7 +277,7 @@ static void searches_of_any_size(void **state)
 
 /* ---- what the comparison is for ---- */
 
-/* The text of a host that does something else. */
+/* Host code with another result. */
 static void run_other(const void *host, int64_t begin, int64_t end, mps_exact *sums, double *maxima)
 {
     int64_t *const *to = host;
@@ -328,14 +330,14 @@ static void a_difference_is_found(void **state)
     ops->give(ops->self, fields.to);
 }
 
-/* Loops of steps with a pocket of gas, and of those that wait for one. */
+/* Loops of steps with a pocket of gas, and of steps before one exists. */
 static const char *const of_gas[] = {
     "gas_pocket__give_rows in 2-D",        "gas_pocket__give_rows in 3-D",
     "gas_pocket__push_film_rows in 2-D",   "gas_pocket__push_film_rows in 3-D",
     "gas_pocket__load_rows in 2-D",        "gas_pocket_look__raise_speeds in 2-D",
     "gas_pocket_look__raise_speeds in 3-D"};
 
-/* Kernels leave out particles of other ranks, as the host's text does. Some liquid encloses gas. */
+/* Kernels skip particles of other ranks, like the host code. Some liquid encloses gas. */
 static void two_ranks(void **state)
 {
     static const char *const scenes_of_ranks[] = {"air_2d", "gas_2d", "gas_3d"};

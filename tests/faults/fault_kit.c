@@ -76,7 +76,7 @@ static bool fails(const char *name, const void *caller)
     return true;
 }
 
-/* `after`: what is done in place of a call that fails. */
+/* `after`: action instead of a failing call. */
 #define FAULT_AFTER(type, name, parameters, arguments, number, result, after)           \
     type __real_##name parameters;                                                      \
     type __wrap_##name parameters;                                                      \
@@ -105,7 +105,7 @@ FAULT(int, fseek, (FILE * file, long at, int from), (file, at, from), EIO, -1)
 FAULT(long, ftell, (FILE * file), (file), EIO, -1)
 FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
       EIO, 0)
-/* ferror() tells it afterwards: nothing can be written to a file that is read. */
+/* ferror() is set afterwards: a file opened for reading cannot be written. */
 FAULT_AFTER(ssize_t, getline, (char **line, size_t *size, FILE *file), (line, size, file), EIO, -1,
             fputc(0, file))
 FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
@@ -150,7 +150,8 @@ cairo_status_t __real_cairo_surface_write_to_png_stream(cairo_surface_t *surface
                                                         cairo_write_func_t put, void *file);
 cairo_status_t __wrap_cairo_surface_write_to_png_stream(cairo_surface_t *surface,
                                                         cairo_write_func_t put, void *file);
-/* The uppermost rows alone: to compress whole pictures took two thirds of the time of these tests, which do not look at them. */
+/* Only the uppermost rows: compressing complete pictures takes two thirds of the time of these
+ * tests, which do not read them. */
 cairo_status_t __wrap_cairo_surface_write_to_png_stream(cairo_surface_t *surface,
                                                         cairo_write_func_t put, void *file)
 {
@@ -192,8 +193,8 @@ int __wrap_fsync(int file)
     return -1;
 }
 
-/* ---- libmps_case ----
- * Memory of a case comes in blocks, so that malloc() fails at few of the places that want some. */
+/* ---- libmps_case ---- Memory of a case is allocated in blocks, so that malloc() is called at few
+ * of the places that use it. */
 
 FAULT_AFTER(void *, mps__case_take, (mps_case * c, size_t size), (c, size), ENOMEM, NULL,
             c->no_memory = true)

@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Calls of libmps_case that fail in turn: those to the system and those to libmps. The linker hands them to fault_kit.c. */
+/* Fault injection: calls from libmps_case to the system and to libmps fail in turn. The linker
+ * redirects them to fault_kit.c. */
 #ifndef FAULT_KIT_H
 #define FAULT_KIT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/* Places of calls that were seen so far. */
+/* Number of call sites so far. */
 int32_t fault_places(void);
-/* How often a place was reached since the last fault_arm(). A place that a run without a failure does not reach `visit` times cannot fail
- * there at that visit. */
+/* Number of visits of a call site since the last fault_arm(). A call site with fewer than `visit`
+ * visits in a run without failures cannot fail at that visit. */
 int32_t fault_visits(int32_t place);
 /* Forget them, for another scene. */
 void fault_forget(void);
-/* From now on calls are watched, and that at place `place` fails when it is reached for the `visit`-th time, from 1. Places have their numbers
- * in the order in which they are seen first. */
+/* Start to count calls; the call at call site `place` fails at visit `visit`, from 1. Call sites
+ * are numbered in the order of their first visit. */
 void fault_arm(int32_t place, int32_t visit);
-/* Calls are not watched any more. @return the function that failed and its place as addr2line wants it, valid until the next
- * fault_arm(); NULL: the place was not reached so often */
+/* Stop to count calls. @return the failed function and its address for addr2line, valid until the
+ * next fault_arm(); NULL: the call site had fewer visits */
 const char *fault_disarm(void);
 
 #endif

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cases of all kinds, read from their files, built and measured, in which each call of the system and of libmps fails in turn. The answer is
- * that of the whole check, or a status with a message, and then there is none. */
+/* Cases of all kinds, read from their files, built and measured, while each call of the system and
+ * of libmps fails in turn. The result is that of the check without a failure, or a status with a
+ * message and no result. */
 #include "../every.h"
 #include "case_kit.h"
 #include "fault_kit.h"
 #include <mps/case.h>
 
-/* What is told of a case, of which the caller frees the texts. */
+/* Output of a check; the caller frees the texts. */
 typedef struct answer {
     mps_status status;
     char *text, *sketch, messages[4000];
@@ -24,7 +25,7 @@ static const char *check(const char *path, int32_t place, int32_t visit, answer 
     return fault_disarm();
 }
 
-/* Read a case with values set and swept; in place of a check its text and the sets of its last run. */
+/* Read a case with `set` and `sweep`; instead of a check its text and the sets of its last run. */
 static const char *read_sets(const char *path, int32_t place, int32_t visit, answer *a)
 {
     static const char *const sets[] = {"fill.oil.depth=1 mm",
@@ -58,7 +59,8 @@ static void forget(answer *a)
     free(a->sketch);
 }
 
-/* The first line of a text that is not in another, but for that of the wall clock; NULL: there is none. */
+/* The first line of a text that is not in another, except that of the wall-clock time; NULL:
+ * none. */
 static const char *other_line(const char *text, const char *in)
 {
     char line[4000];
@@ -69,7 +71,7 @@ static const char *other_line(const char *text, const char *in)
     return NULL;
 }
 
-/* What could not be measured is left out: each line is one of the whole answer. */
+/* Quantities that could not be measured are omitted: each line is one of the complete output. */
 static int compare(const answer *a, const answer *whole, const char *failed)
 {
     const char *other = a->text ? other_line(a->text, whole->text) : NULL;
@@ -84,11 +86,11 @@ static int compare(const answer *a, const answer *whole, const char *failed)
 
 typedef const char *(*reading)(const char *path, int32_t place, int32_t visit, answer *a);
 
-/* Of so many places a sanitizer has one, of each case others. */
+/* With a sanitizer one of this number of call sites is tested, different ones for each case. */
 enum { EACH = 4 };
 static int32_t cases;
 
-/* @return failures that ended it, times the places that stand for one */
+/* @return number of failures that ended it, times the call sites that one represents */
 static int64_t in_turn(const char *path, reading try)
 {
     answer whole, a;

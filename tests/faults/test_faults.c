@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A run from its case to its end, in which each call of the system and of libmps fails in turn, where it is made for the first and for the
- * second time. Either the run goes on and writes what it always writes, with nan for a value that could not be measured, or it says what
- * failed, and its code tells that it did. In both cases no file stays open and the folder is not locked. */
+/* A complete run of a case, in which each call of the system and of libmps fails in turn, at its
+ * first and second visit. Either the run continues with the usual outputs, with nan for a value
+ * that could not be measured, or it reports the failure in a message and its exit code. In both
+ * cases no file remains open and the folder is not locked. */
 #include "../every.h"
 #include "fault_kit.h"
 #include "job_fixture.h"
@@ -31,7 +32,7 @@ static const char TANK[] =
     "run: {until: 12 ms, dt: 4 ms, checkpoint: 5 ms, threads: 1}\n"
     "output: {rate: 250 Hz, frames: 2, pictures: 4 ms, trace: yes, profile: yes, page: 1 MB}\n";
 
-/* A body that carries a tank, with its columns and its load. */
+/* A rigid body that carries a tank, with its columns and its load. */
 static const char BODY[] =
     "mps: 1\ndp: 50 mm\ntank: {size: 0.6 0.4 m}\nfill: [{water: {depth: 0.2 m}}]\n"
     "body:\n  centre: 300 0 mm\n  forward: z\n  mass: 100 kg\n  inertia: 10 kg m2\n"
@@ -53,7 +54,7 @@ static int open_files(void)
     return count;
 }
 
-/* What a run said about a failure of the case. */
+/* Messages of a run about a failure of the case. */
 static void take_messages(const mps_case *c)
 {
     char text[4000] = "";
@@ -62,7 +63,8 @@ static void take_messages(const mps_case *c)
     strncat(said, text, sizeof said - strlen(said) - 1);
 }
 
-/* A run in `folder`, to 12 ms or on to 20 ms, all calls of which are watched. @return exit code; -1: there was no run */
+/* A run in `folder`, to 12 ms or continued to 20 ms, with counted calls. @return exit code; -1: no
+ * run */
 static int32_t run(const char *folder, bool resume, int to, int32_t place, int32_t visit,
                    const char **failed)
 {
@@ -101,7 +103,7 @@ static int wrong;
 
 #define WRONG(...) (wrong++, print_error(__VA_ARGS__))
 
-/* Rows of a table are those of the whole run, but for values that are not there. */
+/* Rows of a table are those of the complete run, except missing values. */
 static void same_rows(const char *folder, const char *name, const char *failed)
 {
     char *all = strdup(text_of("whole", name));
@@ -132,7 +134,7 @@ static void check_run(const char *folder, int32_t code, const char *failed)
         WRONG("%s: no whole summary.json\n", failed);
 }
 
-/* How often the whole run reaches each place. */
+/* Number of visits of each call site in the complete run. */
 enum { PLACES = 4000 };
 static int32_t places, visits[PLACES];
 
@@ -143,11 +145,12 @@ static void note_places(void)
     for (int32_t k = 0; k < places; k++) visits[k] = fault_visits(k);
 }
 
-/* Of so many places a sanitizer has one, of each series others. */
+/* With a sanitizer one of this number of call sites is tested, different ones for each series. */
 enum { EACH = 4 };
 static int32_t series;
 
-/* All places, `visit`-th visits. @return failures among them that ended a run, times the places that stand for one */
+/* All call sites, at visit `visit`. @return number of failures that ended a run, times the call
+ * sites that one represents */
 static int64_t in_turn(bool resume, int32_t visit)
 {
     int ended = 0, reached = 0;
@@ -191,7 +194,8 @@ static void runs(void **state)
     assert_true(in_turn(false, 2) > 50);
 }
 
-/* A run that goes on from its last checkpoint to a later end writes what one to that end does. */
+/* A run that continues from its last checkpoint to a later end has the outputs of one run to that
+ * end. */
 static void runs_that_go_on(void **state)
 {
     const char *failed;

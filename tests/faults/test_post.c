@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is made of the folder of a run: the page, pictures, the film, the state for ParaView, statistics. Each call of the system and of
- * libmps fails in turn, where it is made for the first and for the second time. Either all is made as without a failure, or the call says
- * what failed. Then a page or a film that was there before is still there, and there is no half of a file. No file stays open. */
+/* Post-processing of the folder of a run: the page, pictures, the film, the state for ParaView,
+ * statistics. Each call of the system and of libmps fails in turn, at its first and second visit.
+ * Either the results are those without a failure, or the function reports the failure; then an
+ * existing page or film remains, and there is no partial file. No file remains open. */
 #include "../post/page_fixture.h"
 #include "../unit/tank_fixture.h"
 #include "fault_kit.h"
@@ -12,7 +13,7 @@
 typedef struct product {
     const char *name; /* of its file in the folder; NULL: it is a text */
     mps_status (*make)(const scene *s, mps_sim *sim, char *error, size_t size);
-    const char *before; /* what the file holds until the new one is complete; NULL: there is none */
+    const char *before; /* content of the file until the new one is complete; NULL: none */
     int least;          /* failures that end it */
 } product;
 
@@ -73,7 +74,7 @@ static mps_status make_state(const scene *s, mps_sim *sim, char *error, size_t s
     return mps_paraview_save(s->folder, error, size);
 }
 
-/* All that the highest peaks of P1 tell, with the constants of the folder. */
+/* Statistics of the highest peaks of P1, with the constants of the folder. */
 static void tell(const mps_impacts *impacts)
 {
     mps_fit fit = {.struct_size = sizeof fit};
@@ -129,7 +130,7 @@ static int entries(const char *folder)
     return count;
 }
 
-/* What is there of a product; "": nothing. The caller frees it. */
+/* Content of a product; "": nothing. The caller frees it. */
 static char *made(const scene *s, const product *p, size_t *size)
 {
     char *text = p->name ? text_read(s, p->name, size) : strdup(answer);

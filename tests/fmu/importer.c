@@ -104,7 +104,7 @@ static void find_three(module *m)
     find(m, "fmi3GetDirectionalDerivative", &m->three.derivative);
 }
 
-/* binaries/PLATFORM/NAME.so: there is one platform and one module. */
+/* binaries/PLATFORM/NAME.so: one platform and one module. */
 static void find_file(char *path, size_t size)
 {
     for (int level = 0; level < 2; level++) {
@@ -152,7 +152,8 @@ const module *module_load(const char *folder, int version)
     return m;
 }
 
-/* Those that take an instance. Pointers, counts and flags are all 0; numbers are anything. */
+/* Functions with an instance argument. Pointers, counts and flags are all 0; numbers are
+ * arbitrary. */
 static const char *const names_two[] = {"fmi2SetDebugLogging",
                                         "fmi2FreeInstance",
                                         "fmi2SetupExperiment",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An importer of FMUs, as far as tests need one: an unpacked FMU of either version behind one set of calls. */
+/* A minimal importer of FMUs for tests: an unpacked FMU of either version with one set of
+ * functions. */
 #ifndef TESTS_FMU_IMPORTER_H
 #define TESTS_FMU_IMPORTER_H
 
@@ -22,7 +23,7 @@ typedef struct tank {
     char text[8192]; /* the last message */
 } tank;
 
-/* A module of an unpacked FMU in FOLDER/2 or FOLDER/3. Ends the program if there is none. */
+/* A module of an unpacked FMU in FOLDER/2 or FOLDER/3. Ends the program if it does not exist. */
 const module *module_load(const char *folder, int version);
 int module_version(const module *m);
 const char *module_token(const module *m);
@@ -46,7 +47,8 @@ int tank_state_read(tank *t, const void *bytes, size_t size, void **state);
 int tank_derivative(tank *t, const uint32_t *unknown, size_t unknowns, const uint32_t *known,
                     size_t count, const double *seed, double *out);
 
-/* All functions of the standard with NULL for the instance and for all else: no crash, an error where a call needs them. */
+/* All functions of the standard with NULL for the instance and for all else: no crash, an error
+ * where a call needs them. */
 void module_null(const module *m);
 
 #endif

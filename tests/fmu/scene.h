@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What tests of FMUs share: the motion of a tank, its steps, and a plain simulation of the same case. */
+/* Common code of the tests of FMUs: the motion of a tank, its steps, and a plain simulation of the
+ * same case. */
 #ifndef TESTS_FMU_SCENE_H
 #define TESTS_FMU_SCENE_H
 
 #include "importer.h"
-#include <setjmp.h> /* cmocka.h wants these before it */
+#include <setjmp.h> /* cmocka.h needs these before it */
 #include <stdarg.h>
 #include <math.h>
 #include <mps/mps.h>

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* FMUs of a tank as an importer uses them: the loads of a plain simulation, states, derivatives, two tanks on a body.
- * usage: test_fmu FOLDER, which has the unpacked FMUs 2 and 3, solid/3 in 3-D, and a folder for a plain run, plain */
+/* FMUs of a tank in an importer: the loads of a plain simulation, states, derivatives, two tanks on
+ * a rigid body.
+ * usage: test_fmu FOLDER, which has the unpacked FMUs 2 and 3, solid/3 in 3-D, and a folder for a
+ * plain run, plain */
 #include "scene.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -96,7 +98,8 @@ static void null_instances(void **state)
     for (int k = 0; k < MODULES; k++) module_null(modules[k]);
 }
 
-/* A host adds up lengths to its stop time: its last step may be rounding. The loads stay those of the step before. */
+/* An importer sums step lengths to its stop time: its last step may be a rounding error. The loads
+ * remain those of the previous step. */
 static void steps_to_a_stop_time(void **state)
 {
     (void)state;
@@ -158,7 +161,7 @@ static void bytes_to_another_tank(void **state)
         assert_int_equal(tank_state_read(&b, bytes, 100, &bad), 3);
         assert_non_null(strstr(b.text, "cut short"));
         assert_null(bad);
-        /* and the tank goes on as if they had not come */
+        /* and the tank continues without their effect */
         OK(&b, tank_state_put(&b, read));
         go(&b, time, STEPS, again[0]);
         assert_memory_equal(first, again, sizeof first);
@@ -169,7 +172,8 @@ static void bytes_to_another_tank(void **state)
 
 /* ---- derivatives ---- */
 
-/* F over the acceleration, by two trials of a step; A by the library: forces by momentum and by pressures on walls differ. */
+/* F over the acceleration, by two trials of a step; A by the library: forces by momentum and by
+ * pressures on walls differ. */
 static void derivatives_of_trials(void **state)
 {
     (void)state;
@@ -211,7 +215,8 @@ static void derivatives_of_trials(void **state)
     }
 }
 
-/* In 3-D angles turn about axes that turn too: a tank that stands turned, trials in the second derivative of each angle. */
+/* In 3-D the axes of angles rotate too: a rotated tank, trials in the second derivative of each
+ * angle. */
 static void derivatives_of_a_turned_tank(void **state)
 {
     static const uint32_t angle[3] = {19, 20, 21}, turn[3] = {51, 52, 53},
@@ -246,10 +251,11 @@ static void derivatives_of_a_turned_tank(void **state)
     tank_close(&t);
 }
 
-/* ---- two tanks on a body ---- */
+/* ---- two tanks on a rigid body ---- */
 
-/* A body of mass M free along x with a tank of each version, released with a speed. Each step is done with the acceleration
- * that the loads and derivatives of the step before tell, once again from the same state with the loads found. */
+/* A body of mass M free along x with a tank of each version, released with a speed. Each step uses
+ * the acceleration from the loads and derivatives of the previous step, then it is repeated from
+ * the same state with the new loads. */
 static void two_tanks_on_a_body(void **state)
 {
     (void)state;
@@ -324,7 +330,7 @@ static void refusals(void **state)
         assert_int_equal(tank_step(&t, 1, LENGTH), 3); /* from another time */
         assert_int_equal(tank_step(&t, 0, -LENGTH), 3);
         assert_int_equal(tank_step(&t, 0, NAN), 3);
-        value[0] = 1e300; /* the library refuses it, and its text comes */
+        value[0] = 1e300; /* the library refuses it, with its text */
         OK(&t, tank_set(&t, known, 1, value));
         assert_true(tank_step(&t, 0, LENGTH) >= 2);
         assert_non_null(strstr(t.text, "step: "));

@@ -21,7 +21,7 @@ static void plain_sensors(const plain *p, double *value)
     fail_msg("a sensor of the case is no probe");
 }
 
-/* Values are those of the library; they come back with states, as bytes too. */
+/* Values are those of the library; they are restored with states, also from bytes. */
 void sensors(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fuzz targets: each fuzz_*.c has one LLVMFuzzerTestOneInput(). With -DMPS_FUZZ=ON (clang) libFuzzer drives it; otherwise replay.c runs it
- * over the kept corpora. An input is a sequence of bytes; when it is used up, all further bytes are 0. */
+/* Fuzz targets: each fuzz_*.c has one LLVMFuzzerTestOneInput(). With -DMPS_FUZZ=ON (clang)
+ * libFuzzer drives it; otherwise replay.c runs it over the stored corpora. An input is a sequence
+ * of bytes; after its end all bytes are 0. */
 #ifndef MPS_FUZZ_H
 #define MPS_FUZZ_H
 
@@ -73,7 +74,7 @@ static inline int64_t fuzz_whole(fuzz_input *in)
                         : (int64_t)fuzz_bits(in);
 }
 
-/* What must hold; a failure ends the program, which libFuzzer and ctest notice. */
+/* Assertion; a failure ends the program, which libFuzzer and ctest report. */
 #define FUZZ_MUST(condition)                                                               \
     do {                                                                                   \
         if (!(condition)) {                                                                \
@@ -113,7 +114,7 @@ static inline void fuzz_check_energy(mps_sim *sim)
     for (size_t k = 0; k < sizeof values / sizeof values[0]; k++) FUZZ_MUST(isfinite(values[k]));
 }
 
-/* A step; a failed one leaves time and number of particles as they were. */
+/* A step; a failed one leaves time and number of particles unchanged. */
 static inline mps_status fuzz_step(mps_sim *sim, double dt_max)
 {
     double before, after;
@@ -133,7 +134,8 @@ static inline mps_status fuzz_step(mps_sim *sim, double dt_max)
     return status;
 }
 
-/* An allocator that refuses what no small test needs, so that absurd sizes end as MPS_E_NOMEM and not in the machine's memory. */
+/* An allocator that refuses what no small test needs, so that absurd sizes end as MPS_E_NOMEM and
+ * not in the machine's memory. */
 static inline void *fuzz_alloc(void *user, size_t size)
 {
     (void)user;

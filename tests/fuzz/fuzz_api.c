@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Sequences of calls in any order with any numbers, with models, solvers, preconditioners and motions that return random numbers. */
+/* Sequences of calls in any order with any arguments, with models, solvers, preconditioners and
+ * motions that return random numbers. */
 #include "plugins.h"
 
 enum { CALLS = 48, LARGEST_CLOUD = 600 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Case files: any bytes as a file; behind a byte 0xff also texts "path=value" for a good case, one a line. Nothing is read from other files: they
- * would have to lie in a folder that is not there. */
+/* Case files: any bytes as a file; after a byte 0xff also texts "path=value" for a valid case, one
+ * per line. No other file is read: the folder does not exist. */
 #include "fuzz.h"
 #include <mps/case.h>
 
@@ -11,7 +11,7 @@ static const char good[] =
     "model: mmps\nmotion: {roll: {amplitude: 4 deg, period: 1 s}}\n"
     "sensors: {P: {wall: 0 50 mm}, F: {force: tank}}\nrun: {until: 5 s}\n";
 
-/* Each message has a place or is about a whole file, and a text. */
+/* Each message has a text, and a position or is about a whole file. */
 static void check_messages(const mps_case *c)
 {
     static char text[TEXT];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints with any numbers and right checksums: refused without a change, or taken, and then the simulation goes on. */
+/* Checkpoints with any numbers and correct checksums: refused without a change, or read, and then
+ * the simulation continues. */
 #include "../unit/checkpoint_editor.h"
 #include "fuzz.h"
 #include <unistd.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Motions: tables, harmonics and callbacks of any numbers, in 2-D and 3-D, changed while the tank moves. */
+/* Motions: tables, harmonics and callbacks of any numbers, in 2-D and 3-D, changed during the
+ * run. */
 #include "fuzz.h"
 
 enum { ROWS = 24 };

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* STL files: any bytes, or a closed surface with any changes of its corners and triangles, so that solids are built and filled. */
+/* STL files: any bytes, or a closed surface with any changes of its corners and triangles, so that
+ * solids are built and filled. */
 #include "fuzz.h"
 #include <unistd.h>
 
@@ -24,7 +25,7 @@ static void write_file(const void *bytes, size_t size)
     fclose(file);
 }
 
-/* A box whose corners are moved, with triangles left out, doubled or turned over. */
+/* A box with moved corners, and with omitted, duplicated or inverted triangles. */
 static size_t make_binary(fuzz_input *in, unsigned char *out)
 {
     static const int face[TRIANGLES][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6},

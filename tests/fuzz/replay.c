@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs a fuzz target over files, for machines without libFuzzer and for ctest: program FILE|FOLDER... */
+/* Runs a fuzz target over files, for machines without libFuzzer and for ctest: program
+ * FILE|FOLDER... */
 #include "fuzz.h"
 #include <dirent.h>
 

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The bytes of short runs of each preset in 2-D and 3-D, as 64-bit hashes in hashes.txt: the same with 1, 2 and 4 threads, with gcc and
- * clang, optimised or not. A change of rounding changes them; then the new ones are accepted on purpose:
- *   MPS_GOLDEN_ACCEPT=1 BUILD/tests/golden_test_hashes, and a line in CHANGELOG.md under "Rounding" that says what changed and why. */
+/* The bytes of short runs of each preset in 2-D and 3-D, as 64-bit hashes in hashes.txt: the same
+ * with 1, 2 and 4 threads, with gcc and clang, optimised or not. A change of rounding changes them;
+ * then the new ones are accepted on purpose:
+ *   MPS_GOLDEN_ACCEPT=1 BUILD/tests/golden_test_hashes, and a line in CHANGELOG.md under "Rounding"
+ *   that says what changed and why. */
 #include "../tags.h"
 #include <inttypes.h>
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* hypre.boomeramg: the solver kit, the default solver on the same equations of real steps, settings. */
+/* hypre.boomeramg: the solver kit, the default solver on the same equations of real steps,
+ * settings. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -32,7 +33,8 @@ static void test_kit(void **state)
     assert_int_equal(kit_check_solver(&ops, NULL), 0);
 }
 
-/* Other methods do the work as well: symmetric Gauss-Seidel on classical coarse grids without any limit. */
+/* Other methods do the work as well: symmetric Gauss-Seidel on classical coarse grids without any
+ * limit. */
 static void test_kit_settings(void **state)
 {
     (void)state;
@@ -122,7 +124,8 @@ static void test_settings_refused(void **state)
 
 static double worst; /* largest difference of the two solutions of a step */
 
-/* Solves by hypre.boomeramg and by sundials.pcg with auxgrid, both from zero, and keeps the latter's solution. */
+/* Solves by hypre.boomeramg and by sundials.pcg with auxgrid, both from zero, and keeps the
+ * latter's solution. */
 static void solve_both(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
                        void *pc_self, double *p, mps_ppe_result *result)
 {
@@ -189,7 +192,8 @@ static void take_steps(mps_sim *sim, int count)
     }
 }
 
-/* A column of water falls: both solvers give the same pressure, step by step, with a free surface and with air about. */
+/* A collapsing column of water: both solvers give the same pressure in each step, with a free
+ * surface and with air around. */
 static void test_against_pcg(void **state)
 {
     (void)state;
@@ -236,7 +240,7 @@ static void test_registered(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The library has started MPI, and leaves it running. */
+/* The library has initialised MPI, and does not finalise it. */
 static void test_mpi_runs(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program that runs MPI itself: libmps_hypre neither starts nor ends it, and says so when it is over. */
+/* A program that runs MPI itself: libmps_hypre neither initialises nor finalises it, and reports an
+ * error after MPI_Finalize(). */
 #include <mpi.h>
 #include <mps/hypre.h>
 #include <stdio.h>

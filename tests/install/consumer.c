@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program outside of the library: builds a small tank, takes a step, looks at a probe. Valid C and C++. */
+/* A program outside of the library: builds a small tank, does a step, reads a probe. Valid C and
+ * C++. */
 #include <mps/mps.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program outside of the library that asks the plug-in library libmps_cuda for a GPU. Without one it is told so, and steps on the host. */
+/* A program outside of the library that requests a GPU from the plug-in library libmps_cuda.
+ * Without one it gets an error, and runs on the host. */
 #include <mps/cuda.h>
 #include <mps/mps.h>
 #include <stdio.h>

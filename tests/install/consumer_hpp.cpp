@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// mps.hpp as a program of a user sees it: values, exceptions, callbacks that throw, lives of objects.
+// mps.hpp in a program of a user: values, exceptions, callbacks that throw, lifetimes of objects.
 #include <mps/mps.hpp>
 #include <mps/mps.hpp>
 
@@ -141,7 +141,8 @@ static void callbacks()
     CHECK(solid.fill([](const double *x) { return x[1] < 0.2; }) > 0);
 }
 
-// A body of 100 kg/m that a force of 100 N/m pushes along x: less than 1 m/s2, because liquid goes with it.
+// A rigid body of 100 kg/m under a force of 100 N/m along x: less than 1 m/s2, because of the added
+// mass.
 static void bodies()
 {
     mps::simulation sim = still();
@@ -162,7 +163,8 @@ static void bodies()
     CHECK(throws<mps::error>([&] { moved.carry(box); }, "mass"));
 }
 
-// Objects after their simulation was destroyed, assigned or moved, within each kind of callback and after calls.
+// Objects after their simulation was destroyed, assigned or moved, within each kind of callback and
+// after calls.
 static void lifetimes()
 {
     mps::simulation *owned = new mps::simulation(still());
@@ -178,7 +180,8 @@ static void lifetimes()
     CHECK(wall.read().size() == 1);
     frames.write();
 
-    // the monitor's own object goes: the run stops, and the old simulation with it
+    // the object of the run is assigned in its monitor: the run stops, and the old simulation is
+    // destroyed
     owned = new mps::simulation(still());
     CHECK(!owned->run(1.0, [&](mps::simulation &, const mps_step_info &) { delete owned; }));
     mps::simulation sim = still();
@@ -190,7 +193,7 @@ static void lifetimes()
     }));
     CHECK(std::fabs(elsewhere.time() - 0.02) < 1e-12);
 
-    // moved from: each call says so
+    // moved from: each call fails with an error
     CHECK(!sim.handle());
     CHECK(throws<mps::error>([&] { sim.step(1.0); }, "empty"));
     CHECK(throws<mps::error>([&] { sim.run(1.0); }, "empty"));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A program outside of the library that runs on the ranks of MPI with the plug-in library libmps_mpi. */
+/* A program outside of the library that runs on the ranks of MPI with the plug-in library
+ * libmps_mpi. */
 #include <mps/mpi.h>
 #include <mps/mps.h>
 #include <stdio.h>

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-# Sourced by tests of drivers on ranks, whose arguments are the folder of the drivers and mpirun. 77: MPI starts no ranks here.
+# Sourced by tests of drivers on ranks, whose arguments are the folder of the drivers and mpirun.
+# 77: MPI cannot start ranks.
 here=$(realpath "$(dirname "$0")")
 mpirun=${2:?usage: $0 FOLDER_OF_DRIVERS MPIRUN}
 . "$here/../cases/drivers.sh"
@@ -14,8 +15,8 @@ ranks() { # exit code, ranks, driver, options...
     [ $code = "$wanted" ] || { fail "$2 ranks, ${*:3}: exit $code instead of $wanted"; cat log; }
 }
 
-# All files but the report and the summary, which tell seconds, and the state of ParaView, which tells its folder; of the summary what tells
-# no seconds, nor how it was called.
+# All files except the report and the summary, which contain times, and the state of ParaView, which
+# contains its folder; of the summary all lines without times and the command line.
 same() { # folder, other folder
     local file
     diff -rq -x report.html -x summary.json -x paraview.py "$1" "$2" || fail "$2 is not the same as $1"

@@ -1,12 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs on ranks of MPI have the bytes of a run on one, after every step. Rank 0 makes both runs, the others one. */
+/* Runs on MPI ranks have the bytes of a run on one rank, after every step. Rank 0 does both runs,
+ * the others one. */
 #include "scenes.h"
 #include <mps/mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Each number is known to one rank and 0 on the others, so that the bitwise OR has the bytes of all. */
+/* Each number is known to one rank and 0 on the others, so that the bitwise OR has the bytes of
+ * all. */
 static void collect(record *r, int32_t rank)
 {
     const void *own = rank == 0 ? MPI_IN_PLACE : r;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Drivers with --mpi stop together, and go on with another number of ranks. 77: MPI starts no ranks here.
+# Drivers with --mpi stop together, and resume with another number of ranks. 77: MPI cannot start
+# ranks.
 # usage: tests/mpi/test_drivers.sh FOLDER_OF_DRIVERS MPIRUN
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -39,7 +40,7 @@ runs 0 "${surge[@]}" --out whole
 ranks 0 2 "${surge[@]}" --out steps.now --resume
 for file in probes.csv momentum.csv steps.csv picture_end.png; do cmp whole/$file steps.now/$file || fail "--resume on other ranks: other $file"; done
 
-# ---- frames in pieces; a run of other ranks in the same folder leaves none of them
+# ---- frames in pieces; a run with another number of ranks in the same folder removes them
 pieces=(dam_break --dp 0.02 --t-end 0.1 --frames 2 --out pieces)
 ranks 0 3 "${pieces[@]}" --pieces
 [ "$(grep -c '\.pvtp"' pieces/frames.pvd)" = 3 ] || fail "--pieces: $(cat pieces/frames.pvd)"
@@ -57,7 +58,7 @@ rm -rf steps.now
 runs 0 "${pieces[@]}" --pieces --overwrite
 [ "$(ls pieces/frames | wc -l)" = 3 ] || fail "--pieces on one rank: $(ls pieces/frames)"
 
-# ---- what is refused is said once, and all ranks end
+# ---- a refusal is printed once, and all ranks end
 ranks 2 2 dam_break --bogus
 says 'a wrong option' 'unknown option --bogus'
 ranks 2 2 dam_break --out dam.1

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The engine over MPI against the kit, under mpirun. With messages in small pieces too, as those of more than 2^31 bytes are sent. */
+/* The MPI engine against the kit, under mpirun; also with messages split into small pieces, like
+ * those of more than 2^31 bytes. */
 #include "mpi_engine.h"
 #include "engine_kit.h"
 #include <stdio.h>
@@ -7,7 +8,7 @@
 
 static int wrong;
 
-/* Rank 0 tells the first fault of all ranks. */
+/* Rank 0 prints the first fault of all ranks. */
 static void report(const char *what, const char *fault)
 {
     int32_t rank, ranks;

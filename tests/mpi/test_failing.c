@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What happens to all ranks when one of them fails, stops, does not answer or dies.
+/* Behaviour of all ranks when one of them fails, stops, does not respond or dies.
  * usage: test_failing [kill]      kill: rank 1 dies in a step, and mpirun must end the others */
 #include <mps/model.h>
 #include <mps/mpi.h>
@@ -138,7 +138,7 @@ static void check_monitor(void)
 
 /* ---- a rank that does not answer ---- */
 
-/* Rank 1 comes to the step when it has failed on rank 0. */
+/* Rank 1 begins the step after it has failed on rank 0. */
 static void check_watchdog(void)
 {
     char noticed = 1;
@@ -157,7 +157,8 @@ static void check_watchdog(void)
 
 /* ---- a rank without memory ---- */
 
-/* The k-th allocation of rank 1, and all later ones, fail: all ranks fail, or none. @return whether they do */
+/* The k-th allocation of rank 1, and all later ones, fail: all ranks fail, or none. @return whether
+ * they do */
 static int check_allocation(int64_t k)
 {
     int failed, all;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* hypre.boomeramg on the ranks of MPI: the pressures of sundials.pcg on the same ranks, a rank without memory, and communicators that are
- * refused. */
+/* hypre.boomeramg on the ranks of MPI: the pressures of sundials.pcg on the same ranks, a rank
+ * without memory, and communicators that are refused. */
 #include "ppe/builtin.h"
 #include <math.h>
 #include <mps/hypre.h>
@@ -106,7 +106,8 @@ static void solve_both(void *self, const mps_ppe_problem *problem, const mps_pre
     free(q);
 }
 
-/* The k-th allocation of the last rank, and all later ones, fail: all ranks run out of memory. @return the reason */
+/* The k-th allocation of the last rank, and all later ones, fail: all ranks run out of memory.
+ * @return the reason */
 static int32_t solve_poor(const mps_solver_ops *ops, const mps_ppe_problem *problem, double *p,
                           int64_t k)
 {
@@ -168,7 +169,7 @@ typedef struct scene {
     const char *name;
     int32_t dim, steps;
     double dp, water[3];
-    int air;   /* fills the rest: no row has a level */
+    int air;   /* fills the rest: no row has a pressure datum */
     int empty; /* with 2 ranks and more, one has no row */
 } scene;
 
@@ -268,7 +269,8 @@ static void refuse(const MPI_Comm *comm, mps_status expected, const char *part)
     mps_sim_destroy(sim);
 }
 
-/* A table that is registered without mps_hypre_register(): its first equation fails on all ranks. */
+/* A table that is registered without mps_hypre_register(): its first equation fails on all
+ * ranks. */
 static void check_other_ranks(const MPI_Comm *comm)
 {
     mps_hypre_settings settings;
@@ -294,7 +296,7 @@ static void check_refused(void)
     refuse(NULL, MPS_E_STATE, "MPI_COMM_SELF has rank 0 of 1");
     refuse(&own, MPS_E_STATE, "comm has rank 0 of 1");
     check_other_ranks(&own);
-    /* the first two ranks in turned order */
+    /* the first two ranks in reverse order */
     MPI_Comm_split(world, 0, rank < 2 ? 1 - rank : rank, &turned);
     check_other_ranks(&turned);
     MPI_Comm_free(&turned);

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air; an interrupted run goes on with another number of ranks; what is
-# refused is said once. 77: MPI starts no ranks here.
+# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air; an interrupted run
+# resumes with another number of ranks; a refusal is printed once. 77: MPI cannot start ranks.
 # usage: tests/mpi/test_program.sh FOLDER_OF_MPS MPIRUN CASES
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -42,7 +42,7 @@ CASES
 on 0 2 run tank.yaml --set "dp=30 mm" --set "run.until=0.05 s" --set output.frames=1 --set output.pieces=yes -q -o pieces
 [ "$(grep -c '\.pvtp"' pieces/frames.pvd)" = 2 ] || fail "output.pieces: $(cat pieces/frames.pvd)"
 
-# one rank gets SIGTERM: all end with a checkpoint; one process goes on, then two ranks
+# one rank gets SIGTERM: all end with a checkpoint; one process resumes, then two ranks
 calm=(--set "dp=30 mm" --set output.frames=0)
 "$here/run" "$mpirun" 3 "$mps" run tank.yaml "${calm[@]}" --set "run.until=$never s" -o cut --mpi >log 2>&1 &
 pid=$!
@@ -56,7 +56,7 @@ on 0 2 resume cut --set "run.until=$end s" -q
 runs 0 mps run tank.yaml "${calm[@]}" --set "run.until=$end s" -q -o whole
 for file in probes.csv momentum.csv steps.csv; do cmp whole/$file cut/$file || fail "resume on other ranks: other $file"; done
 
-# what is refused is said once, with one exit code
+# a refusal is printed once, with one exit code
 on 2 2 run
 says 'no case' 'is missing'
 on 2 2 run tank.yaml --sett x

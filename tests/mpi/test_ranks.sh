@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Each driver in 2-D and 3-D writes the same bytes on several ranks as on one: all columns, frames, pictures and checkpoints. 77: MPI starts
-# no ranks here. Cases have 2, 3, 4, 5 ranks in turn; with "all" each case has all of these.
+# Each driver in 2-D and 3-D writes the same bytes on several ranks as on one: all columns, frames,
+# pictures and checkpoints. 77: MPI cannot start ranks. Cases run on 2, 3, 4, 5 ranks in turn; with
+# "all" each case runs on all of these.
 # usage: tests/mpi/test_ranks.sh FOLDER_OF_DRIVERS MPIRUN [all]
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fits of peaks for compare_fits.py. Standard input: u, n, then peaks; standard output: kind, state, scale, shape, likelihood, value. */
+/* Fits of peaks for compare_fits.py. Standard input: u, n, then peaks; standard output: kind,
+ * state, scale, shape, likelihood, value. */
 #include <mps/stats.h>
 #include <stdio.h>
 

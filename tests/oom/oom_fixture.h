@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Allocations that fail, scenes, and the loop over allocations; shared by the tests of this folder. */
+/* Failing allocations, scenes, and the loop over allocations; common code of the tests of this
+ * folder. */
 #ifndef OOM_FIXTURE_H
 #define OOM_FIXTURE_H
 
@@ -57,7 +58,7 @@ static inline mps_status create(memory *m, mps_sim **sim, char *error, size_t er
     return mps_sim_create(&config, sim);
 }
 
-/* ---- scenes: what stands before the call under test -------------------------------------------------------------- */
+/* ---- scenes: set-ups before the call under test ------------------------------------------ */
 
 static inline mps_status add_tank(mps_sim *sim)
 {
@@ -122,7 +123,7 @@ static inline mps_status add_drop(mps_sim *sim, double y, int64_t count)
     return mps_particles_add(sim, &block, NULL);
 }
 
-/* ---- calls under test ---------------------------------------------------------------------------------------------- */
+/* ---- calls under test ------------------------------------------------------------------------ */
 
 static inline mps_status solver(mps_sim *sim)
 {
@@ -192,7 +193,7 @@ static inline mps_status use_own_model(mps_sim *sim)
     return mps_model_use(sim, "oom.any");
 }
 
-/* ---- the loop -------------------------------------------------------------------------------------------------------- */
+/* ---- the loop -------------------------------------------------------------------------------- */
 
 /* Positions, velocities and pressures by id, so that the order does not matter. */
 static inline double *snapshot(mps_sim *sim, int64_t *count)
@@ -231,9 +232,9 @@ typedef struct scene {
     const char *name;
     void (*prepare)(mps_sim *sim);
     mps_status (*call)(mps_sim *sim);
-    int64_t
-        least; /* allocations the call makes at least, so that the loop is known to test something */
-    int32_t dim; /* 0: 2 */
+    int64_t least; /* allocations the call makes at least, so that the loop is known to test
+                  something */
+    int32_t dim;   /* 0: 2 */
 } scene;
 
 static inline void check_step_after(mps_sim *sim, const scene *s)
@@ -260,7 +261,8 @@ static inline bool fail_once(const scene *s, int64_t k)
     if (failed) {
         if (status == MPS_OK &&
             s->prepare ==
-                filled_threads) { /* the memory of the threads: loops run in the calling thread then */
+                filled_threads) { /* the memory of the threads: loops run in the calling thread
+                                     then */
             check_step_after(sim, s);
             mps_sim_destroy(sim);
             free(before);

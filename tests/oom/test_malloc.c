@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory of libraries that does not come from the handle's allocator: malloc() itself fails at its k-th call, for k = 1, 2, ...
- * SUNDIALS makes its objects when a solver is chosen; the steps after that allocate nothing by malloc() but for sundials.klu, and nothing
- * is printed. That is so with SUNDIALS 6; 7 makes messages by malloc() in each step of KINSOL, whether or not they go anywhere, and crashes where
- * its contexts or KLU get no memory. Left out where the address sanitizer has a malloc() of its own. */
+/* Memory of libraries that is not from the allocator of the handle: malloc() itself fails at its
+ * k-th call, for k = 1, 2, ... SUNDIALS creates its objects when a solver is chosen; later steps
+ * allocate nothing by malloc() except with sundials.klu, and nothing is printed. That is so with
+ * SUNDIALS 6; 7 makes messages by malloc() in each step of KINSOL, whether or not they go anywhere,
+ * and crashes where its contexts or KLU get no memory. Skipped with the address sanitizer, which
+ * has its own malloc(). */
 #include <math.h>
 #include <mps/mps.h>
 #include <setjmp.h>
@@ -192,8 +194,9 @@ static void choose(int64_t k, const char *const *solver)
     if (strstr(logged, "SUNDIALS")) _exit(LOGGED);
 }
 
-/* Choosing a solver is refused for want of memory, whichever call fails, but for what SUNDIALS itself does wrong: SUNLogger_Create()
- * of 6.x to 7.5 uses the table of its files without looking whether it is there (the second and third call), and KINCreate() of 6.x prints. */
+/* Choosing a solver returns MPS_E_NOMEM for each failing call, except for errors of SUNDIALS
+ * itself: SUNLogger_Create() of 6.x to 7.5 uses the table of its files without a check for NULL
+ * (the second and third call), and KINCreate() of 6.x prints. */
 static void choice_is_refused(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory that runs out: the k-th allocation fails, for k = 1, 2, ... until a call runs through. Every failure is
- * MPS_E_NOMEM with a text, leaves a handle that works, and at the end all memory is back. */
+/* Out of memory: the k-th allocation fails, for k = 1, 2, ... until a call succeeds. Every failure
+ * is MPS_E_NOMEM with a text, the handle remains usable, and finally all memory is freed. */
 #include "oom_fixture.h"
 
-/* ---- calls under test ---------------------------------------------------------------------------------------------- */
+/* ---- calls under test ------------------------------------------------------------------------ */
 
 static mps_status baffle(mps_sim *sim)
 {

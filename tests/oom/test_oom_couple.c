@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each allocation fails once in calls of couple.h: the state is as before, and the call works when there is memory. */
+/* Each allocation fails once in calls of couple.h: the state is unchanged, and the call succeeds
+ * when there is memory. */
 #include "oom_fixture.h"
 
 static void same_state(mps_sim *sim, const double *wanted, int64_t wanted_count)
@@ -85,7 +86,7 @@ static mps_status set_body(pair *p)
     return mps_body_set(p->sim, &b);
 }
 
-/* Fail each allocation of a call in turn. @return how many there are */
+/* Fail each allocation of a call in turn. @return number of allocations */
 static int fail_each(mps_status (*call)(pair *p), bool goes_back)
 {
     mps_status status = MPS_E_NOMEM;
@@ -141,7 +142,7 @@ static void fail_step(mps_status (*call)(pair *p))
     assert_true(failed > 4);
 }
 
-/* The first step that computes the added mass, for a host and for a body. */
+/* The first step that computes the added mass, for an application and for a rigid body. */
 static void step_with_mass(void **state)
 {
     (void)state;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* As test_oom.c, for what happens in a run: steps, checkpoints, probes, frames. */
+/* As test_oom.c, for calls during a run: steps, checkpoints, probes, frames. */
 #include "oom_fixture.h"
 #include <mps/voids.h>
 
-/* ---- scenes: what stands before the call under test -------------------------------------------------------------- */
+/* ---- scenes: set-ups before the call under test ------------------------------------------ */
 
 static void stepped(mps_sim *sim)
 {
@@ -91,7 +91,7 @@ static void grown(mps_sim *sim)
     assert_int_equal(add_drop(sim, 0.36, 64), MPS_OK);
 }
 
-/* ---- calls under test ---------------------------------------------------------------------------------------------- */
+/* ---- calls under test ------------------------------------------------------------------------ */
 
 static mps_status series(mps_sim *sim)
 {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Folders with pages for the tests in a browser, and a picture that is drawn here, from the paths of the particles, of what the film must show.
- * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/chamfer, FOLDER/plate, FOLDER/flat.rgb */
+/* Folders with pages for the tests in a browser, and the expected picture of the film, drawn here
+ * from the paths of the particles.
+ * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/chamfer, FOLDER/plate,
+ * FOLDER/flat.rgb */
 #include "page_fixture.h"
 #include "page_scale.h"
 
@@ -18,7 +20,8 @@ static void colour_of(double share, double out[3])
                  (f - k) * (mps__scale_map[0][k + 1][c] - mps__scale_map[0][k][c]);
 }
 
-/* A disc over what is there; its edge is covered by as many of FINE x FINE points of a pixel as are in it. */
+/* A disc over the existing picture; coverage of a pixel at its edge is the number of its
+ * FINE x FINE points inside. */
 static void draw_disc(double *picture, double x, double y, double radius, const double colour[3])
 {
     for (int j = (int)(y - radius) - 1; j <= (int)(y + radius) + 1; j++)
@@ -35,7 +38,8 @@ static void draw_disc(double *picture, double x, double y, double radius, const 
         }
 }
 
-/* The scale of the page: largest value of all frames, as no more than one in a hundred is above the 99 % quantile. */
+/* The scale of the page: largest value of all frames, as no more than one in a hundred is above the
+ * 99 % quantile. */
 static double scale_of(const scene *s)
 {
     page_scale scale = {0};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scripts of a page without a browser: how columns become plots, numbers become texts, and what a curve is packed into comes back.
+// Scripts of a page without a browser: columns to plots, numbers to texts, and packed curves, which
+// must be restored.
 // usage: node scripts.mjs PAGE_FOLDER REPORT_HTML
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync, mkdtempSync } from "node:fs";
@@ -31,7 +32,7 @@ assert.equal(eta.series[1].values[at], -0.03);
 const k = eta.t.indexOf(eta.t.find((t) => t > 0.7 && t < 0.8));
 assert.ok(Math.abs(eta.series[0].values[k] - 0.1 * Math.sin(6 * eta.t[k])) < 1e-5);
 
-// Degrees of a ship are a plot of shifts and one of turns, whatever their texts say.
+// Degrees of freedom of a ship give a plot of displacements and one of rotations, for any texts.
 const own_columns = data.tables[0].columns.slice(0, 1).map((c) => c.data)[0];
 const ship = {tables: [{...data.tables[0], columns: ["surge", "heave", "roll", "pitch"].map((name, i) => ({name, label: name, unit: i < 2 ? "m" : "deg", type: "value", about: `${name} of it`,
     place: "main", plot: i < 2 ? "Motion of the tank: shifts" : "Motion of the tank: turns", lo: 0, hi: 1, data: own_columns}))}], references: []};

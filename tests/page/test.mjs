@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A page in a browser: every control does what it says, the canvas is the picture that C draws, axe finds nothing.
+// A page in a browser: every control works, the canvas is the picture drawn by C, axe reports no
+// errors.
 // usage: node test.mjs FOLDER CHROMIUM
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
@@ -55,7 +56,8 @@ await test("the canvas is the picture that C draws of the frame", flat, async (p
     await p.evaluate(() => { document.getElementById("screen").style.width = "720px"; });
     await p.waitForFunction(() => document.getElementById("canvas").width === 720);
     await setFrame(p, 4);
-    assert.equal(await p.evaluate(() => document.getElementById("canvas").height), 407); // 720 of 2.3 m, 1.3 m
+    // 720 of 2.3 m, 1.3 m
+    assert.equal(await p.evaluate(() => document.getElementById("canvas").height), 407);
     const wanted = readFileSync(`${folder}/flat.rgb`), have = await pixels(p);
     let sum = 0, far = 0, inked = 0;
     for (let i = 0; i < wanted.length; i++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plug-ins that are refused, one for each BAD_...; what is wrong is in the text that the test looks for. */
+/* Plug-ins that are refused, one for each BAD_...; the test expects the reason in the text. */
 #include <mps/plugin.h>
 
 int nowhere_defined(void);

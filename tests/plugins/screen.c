@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A plug-in with one of each kind, for the tests of plug-ins in cases: a uniform drag, a preconditioner that does nothing, a load, a motion. */
+/* A plug-in with one item of each kind, for the tests of plug-ins in cases: a uniform drag, an
+ * identity preconditioner, a load, a motion. */
 #include <math.h>
 #include <mps/plugin.h>
 #include <string.h>

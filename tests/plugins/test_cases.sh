@@ -1,7 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: BSD-3-Clause
-# Plug-ins of cases by the program mps: check, run, resume, sweep, pages, and each way in which a plug-in is refused.
-# usage: test_cases.sh PROGRAM FOLDER_OF_PLUGINS [RANKS]     RANKS: a program that runs its arguments on two ranks
+# Plug-ins of cases in the program mps: check, run, resume, sweep, pages, and each refusal of a
+# plug-in.
+# usage: test_cases.sh PROGRAM FOLDER_OF_PLUGINS [RANKS]     RANKS: a program that runs its
+# arguments on two ranks
 program=$1 modules=$2 mpirun=$3
 here=$(cd "$(dirname "$0")" && pwd)
 . "$here/../case/program_kit.sh"
@@ -29,7 +31,8 @@ use: [screen.uniform]
 settings: {screen.rate: 20 1/s}
 END
 
-# ---- a plug-in acts: with a rate of 0 the bytes are those of the tank without it, a rate changes them
+# ---- a plug-in acts: with a rate of 0 the bytes are those of the tank without it, a rate changes
+# them
 expect 0 "" "$program" run tank.yaml -q -o plain
 expect 0 "" "$program" run case.yaml -q -o drag
 expect 0 "" "$program" run case.yaml -q -o zero --set "settings.screen.rate=0 1/s"
@@ -51,7 +54,7 @@ same drag/probes.csv again/probes.csv
 expect 0 "" "$program" run case.yaml -q -o threads --set run.threads=2
 same drag/probes.csv threads/probes.csv
 
-# ---- where a file is looked for; --plugin adds one, or takes the place of one of the same name
+# ---- search path of files; --plugin adds one, or replaces one of the same name
 sed 's|lib/libscreen.so|libscreen.so|' case.yaml > name.yaml
 expect 2 "MPS_PLUGIN_PATH names further folders" "$program" check name.yaml
 expect 0 "" env MPS_PLUGIN_PATH=/nowhere:"$work/lib" "$program" check name.yaml
@@ -118,7 +121,7 @@ END
 expect 2 "body.load: give 'file', a table, or 'plugin'" "$program" check body.yaml --set "body.load={ramp: 1 s}"
 expect 2 "has no effect here" "$program" check tank.yaml --plugin lib/libscreen.so --set "settings.magnet.strength=1 N" --set use=screen.uniform
 
-# ---- a run goes on with the same file only
+# ---- a run is resumed with the same file only
 expect 0 "" "$program" run case.yaml -q -o parts --set "run.checkpoint=0.05 s"
 cp -r parts other
 expect 0 "" "$program" resume parts -q --set "run.until=0.1 s"
@@ -145,7 +148,7 @@ for path in plugins plugins.file plugins.1.file plugins.1; do
     expect 2 "plug-ins cannot be varied" "$program" sweep case.yaml -o sweep3 --set "sweep={$path: [$work/lib/libscreen.so]}"
 done
 
-# ---- what a page or a text names is not loaded: the constructor of this plug-in leaves a file
+# ---- a plug-in of a page or a text is not loaded: the constructor of this plug-in creates a file
 cp "$modules/plugin_trap.so" lib/trap.so
 export TRAP="$work/trapped"
 trapped() { [ -e "$TRAP" ] && { fail "$1: the plug-in ran"; rm -f "$TRAP"; }; }
@@ -220,7 +223,7 @@ head -c 3000 lib/libscreen.so > cut.so
 refused cut.so "it is cut short or damaged"
 mkfifo pipe.so
 refused pipe.so "it is no regular file"
-# the machine of an ELF header stands at byte 18, its class at byte 4, its type at byte 16
+# in an ELF header the machine is at byte 18, the class at byte 4, the type at byte 16
 patched() { cp lib/libscreen.so "$1"; printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none; }
 patched arm.so 18 '\363\000'
 refused arm.so "it is built for RISC-V, 64 bits, and this program for"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Plug-ins by the public functions: what is loaded from where, checkpoints, lines of checkpoints, texts that are no plug-ins. */
+/* Plug-ins by the public functions: loading, checkpoints, notes of checkpoints, files that are no
+ * plug-ins. */
 #include <mps/case.h>
 #include <mps/mps.h>
 #include <mps/plugin.h>
@@ -70,7 +71,8 @@ static void modes(void **state)
     mps_case_destroy(c);
 }
 
-/* A text that was read with plug-ins names the file by its place and sum: read again it is the same. */
+/* The text of a case with plug-ins contains path and checksum of the file: reading it again gives
+ * the same case. */
 static void text_again(void **state)
 {
     (void)state;
@@ -227,7 +229,8 @@ static void notes(void **state)
 
 /* ---- texts that are no plug-ins ---- */
 
-/* The value of `plugins` with some characters changed. A case is refused with a message, or it is one. */
+/* The value of `plugins` with some characters changed. A case is refused with a message, or it is
+ * one. */
 static void mutated(void **state)
 {
     (void)state;

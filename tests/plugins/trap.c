@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A plug-in whose constructor leaves a file, $TRAP: a program that does not request it must not load it. */
+/* A plug-in whose constructor creates a file, $TRAP: a program that does not request it must not
+ * load it. */
 #include <mps/plugin.h>
 #include <stdio.h>
 #include <stdlib.h>

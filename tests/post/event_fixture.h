@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Signals of triangles, and the events that are found in them. */
+/* Signals of triangles, and their events. */
 #ifndef EVENT_FIXTURE_H
 #define EVENT_FIXTURE_H
 

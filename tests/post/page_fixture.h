@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A folder as a run writes it, with particles on known paths in a tank that moves, and the packed film of a page undone by code of its own. */
+/* The folder of a run, with particles on known paths in a moving tank, and separate code that
+ * unpacks the film of a page. */
 #ifndef PAGE_FIXTURE_H
 #define PAGE_FIXTURE_H
 
@@ -18,15 +19,16 @@
 #include <zlib.h>
 #include <cmocka.h>
 
-/* What a folder holds. */
+/* Contents of a folder. */
 typedef struct scene {
     char folder[64];
     int32_t dim, fluid, frames, rows;
-    bool moves; /* the tank turns and shifts */
+    bool moves; /* the tank rotates and moves */
     bool body;  /* the last four walls are a part of their own, which moves */
-    bool front; /* the last eight walls stand before the liquid, in 3-D: of the tank, a chamfer */
-    bool plate; /* these are a part of their own, which stands in the tank */
-    int32_t pockets; /* frames say which of so many pockets of gas a particle is beside */
+    bool front; /* the last eight walls are in front of the liquid, in 3-D: a chamfer of the tank */
+    bool plate; /* these are a separate part inside the tank */
+    int32_t pockets; /* number of pockets of gas; frames contain the pocket adjacent to a
+                        particle */
     char error[512];
 } scene;
 
@@ -65,7 +67,8 @@ static inline char *text_read(const scene *s, const char *name, size_t *size)
     return text;
 }
 
-/* Place of a particle in the frame of the tank, which is 2 x 1 (x 0.5). Walls are numbers -1, -2, ... */
+/* Position of a particle in the frame of the tank, which is 2 x 1 (x 0.5). Walls are numbers -1,
+ * -2, ... */
 static inline void place_in_tank(const scene *s, int32_t i, int32_t k, double out[3])
 {
     const double phase = 0.37 * i, t = (double)k / fmax(s->frames - 1, 1);
@@ -85,7 +88,7 @@ static inline void place_in_tank(const scene *s, int32_t i, int32_t k, double ou
     out[2] = 0.44;
 }
 
-/* The same in the lab: a turn about z and a shift. */
+/* Position in the lab: a rotation about z and a displacement. */
 static inline void place_in_lab(const scene *s, int32_t i, int32_t k, double out[3])
 {
     double X[3];
@@ -113,7 +116,7 @@ static inline void write_array(FILE *file, const void *data, uint64_t bytes)
     fwrite(data, 1, bytes, file);
 }
 
-/* Number of the pocket that a particle is beside; 0: none. */
+/* Number of the pocket adjacent to a particle; 0: none. */
 static inline int32_t pocket_of(const scene *s, int32_t i, int32_t k)
 {
     return i >= 0 && k > 0 && i % 5 == 0 ? (3 * i + k) % (s->pockets + 1) : 0;
@@ -307,7 +310,7 @@ static inline mps_status page_of(scene *s, int64_t bytes, mps_page_info *info)
     return mps_page_write(s->folder, &config, info);
 }
 
-/* ---- undoing ------------------------------------------------------------------------------------------------------ */
+/* ---- undoing --------------------------------------------------------------------------------- */
 
 static inline int digit_of(char c)
 {
@@ -337,7 +340,8 @@ static inline unsigned char *unpacked(const char *text, size_t most, size_t *siz
     return out;
 }
 
-/* Add the frames of a block to what came before: q is [frames][dim][count]. @return frames in the block */
+/* Add the frames of a block to the previous ones: q is [frames][dim][count]. @return frames in the
+ * block */
 static inline int32_t undo_block(const unsigned char *raw, size_t size, int32_t count, int32_t dim,
                                  int32_t values, int32_t bits, int32_t before, int32_t *q,
                                  unsigned char *value)

@@ -84,7 +84,7 @@ static inline int span_of(const sheet *s, const double c[3], int around, int out
     return count;
 }
 
-/* From metres to pixels, by the discs of the walls, whose middles stand at 0 and at `size`. */
+/* Convert metres to pixels, by the discs of the walls, with centres at 0 and at `size`. */
 typedef struct place {
     double x0, y0, scale;
 } place;
@@ -127,7 +127,8 @@ static inline void add_sensor(mps_sim *sim, int32_t type, const char *name, doub
     ASSERT_OK(sim, mps_probe_add(sim, &probe, &id));
 }
 
-/* Pressures of all fluid: p0 + slope (0.25 m - y). @return index of the particle nearest to (x, y) */
+/* Pressures of all fluid: p0 + slope (0.25 m - y). @return index of the particle nearest to (x,
+ * y) */
 static inline int64_t set_pressures(mps_sim *sim, double p0, double slope, double x, double y)
 {
     mps_lease p = {.struct_size = sizeof p}, X = {.struct_size = sizeof X},
@@ -191,7 +192,8 @@ static inline void write_text(const char *folder, const char *name, const char *
     assert_int_equal(fclose(file), 0);
 }
 
-/* The folder of a run of `frames` frames, in which the tank moves along x. `more`: members of summary.json, with a comma at the end. */
+/* The folder of a run of `frames` frames, in which the tank moves along x. `more`: members of
+ * summary.json, with a comma at the end. */
 static inline void write_folder(const char *folder, mps_sim *sim, int frames, const char *more)
 {
     mps_frames *series;

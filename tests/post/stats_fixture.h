@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A config with room for a text, and what tests of statistics compare. */
+/* A config with a text buffer, and comparisons of the tests of statistics. */
 #ifndef STATS_FIXTURE_H
 #define STATS_FIXTURE_H
 

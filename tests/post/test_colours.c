@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The colours of phases: each map grows in lightness all the way, and those of two phases can be told apart by all readers. Sight of
- * colour-blind readers after Machado, Oliveira & Fernandes 2009 (severity 1), distances in CIE L*a*b*. */
+/* The colours of phases: lightness increases monotonically in each map, and the maps of two phases
+ * are distinguishable for all readers. Colour blindness by Machado, Oliveira & Fernandes 2009
+ * (severity 1), distances in CIE L*a*b*. */
 #include "page_scale.h"
 #include <math.h>
 #include <setjmp.h>
@@ -27,7 +28,7 @@ static double root(double t)
     return t > 0.008856 ? cbrt(t) : 7.787 * t + 16.0 / 116;
 }
 
-/* Colour at a share f of a map as a reader sees it: L*, a*, b*. */
+/* Colour at fraction f of a map as perceived by a reader: L*, a*, b*. */
 static void seen(int map, double f, int who, double lab[3])
 {
     static const double to_xyz[9] = {0.4124564, 0.3575761, 0.1804375, 0.2126729, 0.7151522,
@@ -72,7 +73,7 @@ static void lightness_grows(void **state)
         }
 }
 
-/* 10 is seen at a glance; the maps of the first release came to 0.3. */
+/* 10 is a clear difference; the maps of the first version had 0.3. */
 static void phases_differ(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is made of a run's folder: pictures of frames, films, the state for ParaView. */
+/* Post-processing of the folder of a run: pictures of frames, films, the state for ParaView. */
 #include "picture_fixture.h"
 
 static const char folder[] = "test_film_run";
@@ -25,7 +25,8 @@ static void need_ffmpeg(void)
     if (run_quietly("command -v ffmpeg") != 0) skip();
 }
 
-/* The picture of a frame is that of the state which was written, byte by byte, in a tank that moves and turns, too. */
+/* The picture of a frame is bitwise that of the written state, also in a tank that moves and
+ * rotates. */
 static void frame_is_state(void **state)
 {
     (void)state;
@@ -67,7 +68,7 @@ static void frame_is_state(void **state)
     remove_folder(folder);
 }
 
-/* Scale, title and gravity come from the folder where the config has none. */
+/* Scale, title and gravity are those of the folder if the config has none. */
 static void folder_completes(void **state)
 {
     (void)state;
@@ -105,7 +106,7 @@ static void film_has_all_frames(void **state)
     mps_sim *sim = wet_tank(2);
     mps_film_config config = film_config(error, sizeof error);
     mps_picture_config still = new_config(error, sizeof error);
-    config.width = 641; /* players want even numbers */
+    config.width = 641; /* players need even numbers */
     still.width = 641;
     write_folder(folder, sim, 4, "");
     const mps_status status = mps_film_save(folder, &config, NULL);
@@ -139,7 +140,8 @@ static void assert_no_film(const mps_film_config *config, const char *path, mps_
     assert_false(exists("test_film_run/film.mp4.tmp"));
 }
 
-/* The program is missing, fails, or stops reading: a text, no file, and no signal for the host. */
+/* The program is missing, fails, or stops reading: a text, no file, and no signal for the
+ * application. */
 static void programs_that_fail(void **state)
 {
     (void)state;

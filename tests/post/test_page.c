@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* report.html from a folder: what it holds, its limit, and folders that are broken. */
+/* report.html from a folder: its contents, its limit, and damaged folders. */
 #include "page_fixture.h"
 #include <mps/stats.h>
 
@@ -72,7 +72,8 @@ static void reel_free(reel *r)
     free(r->ids);
 }
 
-/* Each particle is within half a quantum (and the float of the frame) of where it is in the tank, in each frame, under its own id. */
+/* Each particle is within half a quantum (and the float of the frame) of where it is in the tank,
+ * in each frame, under its own id. */
 static void check_reel(const scene *s, const reel *r)
 {
     assert_int_equal(r->count, s->fluid);
@@ -169,7 +170,8 @@ static void sections_and_texts(void **unused)
     scene_remove(&s);
 }
 
-/* Constants of the case count; those that do not fit are told, and the rest of the page is there. */
+/* Constants of the case are used; invalid ones are reported, and the rest of the page is
+ * complete. */
 static void constants_of_impacts(void **unused)
 {
     static const struct {
@@ -209,7 +211,8 @@ static void constants_of_impacts(void **unused)
     scene_remove(&s);
 }
 
-/* Constants of the caller are used in place of those of the run; the page says which differ. An own crossing time stays. */
+/* Constants of the caller are used instead of those of the run; the page lists the differences. An
+ * explicit crossing time is kept. */
 static void other_constants(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 500};
@@ -245,7 +248,8 @@ static void other_constants(void **unused)
     scene_remove(&s);
 }
 
-/* The page stays below its limit, says what was left out, and keeps every particle that it shows where it is. */
+/* The page is below its limit, states what was omitted, and does not move any particle that it
+ * shows. */
 static void limit_holds(void **unused)
 {
     static const int64_t limit[] = {2000000, 700000, 600000, 500000};
@@ -306,7 +310,7 @@ static void little_to_show(void **unused)
     scene_remove(&s);
 }
 
-/* ---- what is refused --------------------------------------------------------------------------------------------- */
+/* ---- what is refused ------------------------------------------------------------------------- */
 
 static void expect(scene *s, mps_status status, const char *text)
 {
@@ -366,7 +370,7 @@ static void broken_frames(void **unused)
     expect(&s, MPS_E_IO, "cannot open '");
     s.fluid = 0;
     write_frame(&s, 1);
-    assert_int_equal(page_of(&s, 0, NULL), MPS_OK); /* all of them gone for a frame */
+    assert_int_equal(page_of(&s, 0, NULL), MPS_OK); /* all of them missing in a frame */
     text_write(&s, "frames.pvd",
                "<DataSet timestep=\"0\" file=\"frames/frames_000000.vtp\"/>\n"
                "<DataSet timestep=\"0\" file=\"frames/frames_000002.vtp\"/>\n");

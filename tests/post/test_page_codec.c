@@ -22,7 +22,7 @@ static char *text_of(const codec_bytes *bytes)
     return text;
 }
 
-/* Wild integers of all sizes come back as they were, across blocks. */
+/* Random integers of all sizes are restored exactly, across blocks. */
 static void round_trip(int32_t dim, int32_t values, int32_t bits, int32_t count)
 {
     enum { FRAMES = 9 };
@@ -119,7 +119,8 @@ static void base64_of_the_standard(void **unused)
     }
 }
 
-/* Bytes increase with the value, are never 0, and tell values of the scale to a half of 1/223. */
+/* Bytes increase with the value, are never 0, and represent values of the scale with an error of
+ * half of 1/223. */
 static void bytes_of_a_scale(void **unused)
 {
     page_scale s = {0};
@@ -140,7 +141,8 @@ static void bytes_of_a_scale(void **unused)
     assert_int_equal(mps__scale_code(&s, NAN), 1);
 }
 
-/* Of several phases the scale begins at the 1 % quantile where that is negative; noise is no scale. */
+/* Of several phases the scale begins at the 1 % quantile where that is negative; noise is no
+ * scale. */
 static void ends_of_a_scale(void **unused)
 {
     page_scale s = {0}, quiet = {0};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a page says about runs of all kinds: good and bad ones, thinned curves, pieces of ranks, bodies, pictures. */
+/* Contents of a page for runs of all kinds: valid and failed ones, thinned curves, pieces of ranks,
+ * rigid bodies, pictures. */
 #include "page_fixture.h"
 
 /* The page of a scene has, or has not, each of some texts. */
@@ -63,7 +64,7 @@ static void sketches(void **unused)
     scene_remove(&s);
 }
 
-/* In 3-D the sketch looks along the axis in which the sensors stand less apart. */
+/* In 3-D the view direction of the sketch is the axis with the smaller spread of the sensors. */
 static void sides(void **unused)
 {
     static const char *const place[][3] = {
@@ -90,7 +91,8 @@ static void sides(void **unused)
     scene_remove(&s);
 }
 
-/* A long forced motion: what is lost or gained without a reason is measured by the energy of the walls, where that is the larger one. */
+/* A long forced motion: what is lost or gained without a reason is measured by the energy of the
+ * walls, where that is the larger one. */
 static void energy_of_walls(void **unused)
 {
     static const struct {
@@ -155,7 +157,7 @@ static void verdicts(void **unused)
     scene_remove(&s);
 }
 
-/* A smooth pressure is no impact, and a steep one that is not resolved is told. */
+/* A smooth pressure is no impact, and an unresolved steep one is reported. */
 static void steep_or_not(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 300};
@@ -182,7 +184,8 @@ static void steep_or_not(void **unused)
     scene_remove(&s);
 }
 
-/* A sensor that stays dry is told so; two events are too few, and the page says how long a record has enough. */
+/* A dry sensor is reported; two events are too few, and the page states the necessary length of the
+ * record. */
 static void dry(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
@@ -258,7 +261,7 @@ static void thinned_curves(void **unused)
     scene_remove(&s);
 }
 
-/* Pieces of two ranks give the page that one file gives. */
+/* Pieces of two ranks give the same page as one file. */
 static void pieces_of_ranks(void **unused)
 {
     scene s = {.dim = 2, .fluid = 50, .frames = 1, .rows = 20};
@@ -340,8 +343,8 @@ static void frames_of_others(void **unused)
     scene_remove(&s);
 }
 
-/* Frames about peaks are in the film in the order of time, once each; where the page is too
- * small for all, others are left out. */
+/* Frames around peaks are in the film in the order of time, once each; if the page is too small for
+ * all, others are omitted. */
 static void frames_about_peaks(void **unused)
 {
     scene s = {.dim = 2, .fluid = 400, .frames = 9, .rows = 900};
@@ -372,7 +375,7 @@ static void frames_about_peaks(void **unused)
     scene_remove(&s);
 }
 
-/* The page of a run that goes on says so above all else; models in use are named. */
+/* The page of a run in progress states this at the top; models in use are named. */
 static void unfinished(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
@@ -389,7 +392,7 @@ static void unfinished(void **unused)
     scene_remove(&s);
 }
 
-/* Known values beside the columns that they belong to, with figures. */
+/* Reference values in the plots of their columns, with figures. */
 static void known_values(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 300};
@@ -407,7 +410,7 @@ static void known_values(void **unused)
     scene_remove(&s);
 }
 
-/* A part whose walls leave their places is a body of the film; the tank itself stands. */
+/* A part whose walls move is a body in the film; the tank itself is at rest. */
 static void bodies_move(void **unused)
 {
     scene s = {.dim = 2, .fluid = 30, .frames = 3, .rows = 20};
@@ -425,7 +428,7 @@ static void bodies_move(void **unused)
     scene_remove(&s);
 }
 
-/* Pictures stand in for the film where there are no frames. */
+/* Pictures replace the film if there are no frames. */
 static void pictures(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
@@ -439,7 +442,7 @@ static void pictures(void **unused)
     scene_remove(&s);
 }
 
-/* Texts that leave no room for a film, and those that leave no page. */
+/* Texts that leave no bytes for a film, and texts longer than the limit of the page. */
 static void too_large(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 3, .rows = 20};

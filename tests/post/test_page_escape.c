@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each text that a page takes from a folder, with markup, ends of elements, control characters
- * and bytes that are no UTF-8: the elements of the page stay those of a page with plain texts,
- * and each of its data elements stays JSON. */
+/* Each text that a page reads from a folder, with markup, ends of elements, control characters and
+ * bytes that are no UTF-8: the elements of the page are those of a page with plain texts, and each
+ * of its data elements is valid JSON. */
 #include "page_fixture.h"
 #include "page_json.h"
 #include "page_text.h"
@@ -41,7 +41,7 @@ static const char SUMMARY[] =
     "\"references\": [{\"label\": \"@\", \"unit\": \"@\", \"column\": \"@\", \"points\": [[1, "
     "2]]}]}\n";
 
-/* The summary with a text in place of each '@'. */
+/* The summary with a text instead of each '@'. */
 static void write_attacked(const scene *s, const char *text)
 {
     char *all = calloc(1, sizeof SUMMARY + 64 * strlen(text)), *to = all;
@@ -80,8 +80,8 @@ static void write_folder(const scene *s, const char *text)
     text_write(s, "case.yaml", file);
 }
 
-/* Names of the elements of a page in their order, as an HTML parser finds them: the text of
- * script and style goes up to its end tag, and "<!--" with "<script" in a script moves that end.
+/* Names of the elements of a page in their order, as in an HTML parser: the text of script and
+ * style ends at its end tag, and "<!--" with "<script" in a script moves that end.
  * @return malloc'd */
 static char *elements_of(const char *page)
 {
@@ -204,7 +204,7 @@ static void each_character(void **unused)
            "\"a\\\"\\\\\\u003c/script\\u003e\\u0026\\n\\t" NONE "\"");
 }
 
-/* The case comes back byte by byte. */
+/* The case is restored byte by byte. */
 static void case_is_exact(void **unused)
 {
     static const char text[] = "a: <\\/script> <!-- <script> <\\ <\xc2\x85\r\n\x01\xff</pre>\n";

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Folders that a run of this library does not write as they are here: what a page, pictures and a film make of them. */
+/* Folders unlike those that a run writes: results of a page, pictures and a film. */
 #include "page_fixture.h"
 #include <mps/picture.h>
 
@@ -22,7 +22,8 @@ static void refused(scene *s, const char *words)
     if (!strstr(s->error, words)) fail_msg("'%s' is not in: %s", words, s->error);
 }
 
-/* Texts that would end an element or a text of JSON; references with nothing in them; a lattice of boxes. */
+/* Texts that would end an element or a text of JSON; references with nothing in them; a lattice of
+ * boxes. */
 static void texts(void **state)
 {
     scene s = {.dim = 2, .fluid = 12, .frames = 0, .rows = 20};
@@ -41,7 +42,8 @@ static void texts(void **state)
     scene_remove(&s);
 }
 
-/* Lines that end as those of other systems do; a unit without an end; more columns than a table has. */
+/* Lines that end as those of other systems do; a unit without an end; more columns than a table
+ * has. */
 static void tables(void **state)
 {
     scene s = {.dim = 2, .fluid = 12, .frames = 0, .rows = 20};
@@ -192,7 +194,7 @@ static void names_of_folders(void **state)
     scene_remove(&s);
 }
 
-/* A film asked for 24 frames a second; a rate and a width beyond what there is. */
+/* A film with 24 frames per second; a rate and a width out of range. */
 static void films(void **state)
 {
     scene s = {.dim = 2, .fluid = 12, .frames = 2, .rows = 20};
@@ -261,8 +263,8 @@ static void links_out(void **state)
     scene_remove(&other);
 }
 
-/* A folder whose name is a link, and links that stay in the folder, are those of one's own runs.
- * Names with ".." and whole names do not leave it, a pipe does not block. */
+/* A folder whose name is a link, and links within the folder, are accepted. Names with ".." and
+ * absolute names are refused, a pipe does not block. */
 static void links_in(void **state)
 {
     scene s = {.dim = 2, .fluid = 12, .frames = 2, .rows = 20}, by_link = s;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The reader of JSON: what is JSON is read, all else is refused at its line. */
+/* The JSON reader: valid JSON is read, everything else is refused with its line. */
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>

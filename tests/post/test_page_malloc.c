@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* malloc(), calloc() and realloc() fail at their k-th call, for k = 1, 2, ...: a page is written whole, or an error is told and the page
- * before it stays. Left out where the address sanitizer has a malloc() of its own. */
+/* malloc(), calloc() and realloc() fail at their k-th call, for k = 1, 2, ...: a page is written
+ * completely, or an error is returned and the previous page remains. Skipped with the address
+ * sanitizer, which has its own malloc(). */
 #include "page_fixture.h"
 #include <errno.h>
 

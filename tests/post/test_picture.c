@@ -4,7 +4,8 @@
 
 static const char path[] = "test_picture.png";
 
-/* One particle has the largest pressure, all others none: it alone is yellow, at its place in the axes. */
+/* One particle has the largest pressure, all others zero: only this one is yellow, at its position
+ * in the axes. */
 static void disc_at_its_place(void **state)
 {
     (void)state;
@@ -38,7 +39,8 @@ static void disc_at_its_place(void **state)
     remove(path);
 }
 
-/* The bar goes from the colour of the least pressure at its foot to that of the largest one at its head, right of the tank. */
+/* The colour bar, to the right of the tank, ranges from the least pressure at the bottom to the
+ * largest at the top. */
 static void bar_ends(void **state)
 {
     (void)state;
@@ -65,7 +67,7 @@ static void bar_ends(void **state)
     remove(path);
 }
 
-/* Rings at sensors, also where the tank has moved and turned: pictures are drawn in its frame. */
+/* Rings at sensors, also if the tank has moved and rotated: pictures are drawn in its frame. */
 static void sensor_marks(void **state)
 {
     (void)state;
@@ -100,7 +102,7 @@ static void sensor_marks(void **state)
     remove(path);
 }
 
-/* Pixels beside the time that are not white: the arrow of gravity. */
+/* Non-white pixels next to the time: the arrow of gravity. */
 static int count_head(const char *file)
 {
     const sheet s = read_sheet(file);
@@ -214,7 +216,8 @@ static void sizes_and_titles(void **state)
     remove(path);
 }
 
-/* In 3-D the view of the whole is above the slice: both have the colours of the water, and the slice has the disc at its place. */
+/* In 3-D the view of the whole liquid is above the slice: both have the colours of the water, and
+ * the disc is at its position in the slice. */
 static void two_views(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sheet that pictures are drawn on: what is outside, thinner than a pixel, or no text. */
+/* The canvas of pictures: objects outside of it, thinner than a pixel, or invalid texts. */
 #include "picture_canvas.h"
 #include "picture_fixture.h"
 
@@ -84,7 +84,8 @@ static void arrows(void **state)
     mps__canvas_destroy(&c);
 }
 
-/* What is no character is drawn as '?': bytes of other codes, half a character, forms that are too long, surrogates, control codes. */
+/* What is no character is drawn as '?': bytes of other codes, half a character, forms that are too
+ * long, surrogates, control codes. */
 static void characters(void **state)
 {
     static const char *const wrong[] = {"\xff",
@@ -115,7 +116,8 @@ static void characters(void **state)
     mps__canvas_destroy(&c);
 }
 
-/* A text that is too wide ends with an ellipsis behind a whole character; one of thousands of bytes is cut. */
+/* A text that is too wide ends with an ellipsis behind a whole character; one of thousands of bytes
+ * is cut. */
 static void wide_texts(void **state)
 {
     const text_style style = {.size = 12, .ink = {0, 0, 0}};

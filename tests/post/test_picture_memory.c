@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each allocation of a picture, a film and a state for ParaView fails in turn: the call says so, leaves no file and no memory, and the
- * next one succeeds. The linker puts __wrap_malloc() in the place of malloc() in libmps_case, but not in cairo. */
+/* Each allocation of a picture, a film and a state for ParaView fails in turn: the call returns an
+ * error, leaves no file and leaks no memory, and the next one succeeds. The linker replaces
+ * malloc() by __wrap_malloc() in libmps_case, but not in cairo. */
 #include "picture_fixture.h"
 
 void *__real_malloc(size_t size);

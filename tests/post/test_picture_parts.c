@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts of pictures that have no pixels of their own: ticks, the outside of a tank, what a scene shows. */
+/* Parts of pictures without own pixels: ticks, the outside of a tank, the contents of a scene. */
 #include "picture_axes.h"
 #include "picture_fixture.h"
 #include "picture_hull.h"
@@ -41,7 +41,7 @@ static void expect_outwards(const hull *h, float x, float y, float z, int a, int
             fail_msg("at %g %g %g axis %d looks to %g", (double)x, (double)y, (double)z, d, out[d]);
 }
 
-/* A box with a plate in its middle: faces look outwards, the plate nowhere. */
+/* A box with a plate in its middle: faces have outward normals, the plate has none. */
 static void outside_of_a_box(void **state)
 {
     (void)state;
@@ -76,7 +76,8 @@ static void outside_of_a_box(void **state)
     mps__scene_free(&s);
 }
 
-/* Above an open tank the fluid counts, up to a quarter of the height; without walls the fluid alone; places that are no numbers do not. */
+/* The extent includes fluid above an open tank, up to a quarter of the height; without walls only
+ * the fluid; positions that are NaN are ignored. */
 static void box_of_a_scene(void **state)
 {
     (void)state;

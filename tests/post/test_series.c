@@ -18,7 +18,7 @@ static mps_harmonics new_harmonics(int32_t count, double omega)
     return h;
 }
 
-/* A sum of harmonics at irregular times comes back; so does the rest that is none of them. */
+/* A sum of harmonics at irregular times is recovered, and also the residual. */
 static void harmonics_come_back(void **state)
 {
     (void)state;
@@ -115,7 +115,8 @@ static void straight_lines(void **state)
     ASSERT_NEAR(c.t_trough[1], 0, 0);
 }
 
-/* Waves, one later than the other: the shift comes back in both directions, to a part of the grid. */
+/* Waves with a time shift: the shift is recovered in both directions, within a fraction of the
+ * grid. */
 static void shifts(void **state)
 {
     (void)state;
@@ -167,8 +168,8 @@ static void no_shift(void **state)
     ASSERT_NEAR(c.shift, 1, 1e-3);
 }
 
-/* Crests of a wave that the series has .1 s later and .01 higher: values at the points alone
- * count. */
+/* Crests of a wave that in the series are .1 s later and .01 higher: only values at the points are
+ * used. */
 static void points_of_a_wave(void **state)
 {
     enum { POINTS = 9 };
@@ -184,7 +185,7 @@ static void points_of_a_wave(void **state)
         tp[k] = 0.3 + 0.97 * k;
         pp[k] = sin(2 * PI * tp[k]) + 0.3 * sin(PI * tp[k]);
     }
-    tp[POINTS] = 20; /* after the series: left out */
+    tp[POINTS] = 20; /* after the series: ignored */
     pp[POINTS] = 5;
     const mps_series points = series_of(POINTS + 1, tp, pp), series = series_of(N, t, p);
     config.period = 1;
@@ -363,7 +364,7 @@ static void peaks_of_runs(void **state)
     config.window = 1;
     for (int k = 0; k < 3; k++) {
         for (int i = 0; i < 8; i++)
-            t[i] = i + 0.75 * k; /* the second comes in time, the third does not */
+            t[i] = i + 0.75 * k; /* the second is within the window, the third is not */
         ASSERT_DONE(mps_impacts_find(&config, 8, t, p[k], &run[k]));
     }
     const mps_impacts *const all[] = {run[0], run[1], run[2]}, *const hole[] = {run[0], NULL};

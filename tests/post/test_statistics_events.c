@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Events of signals: triangles come back, edges of the definition. */
+/* Events of signals: triangles are recovered, limits of the definition. */
 #include "event_fixture.h"
 
-/* Where corners are on samples, all exactly. Elsewhere times to a sample: rise and decay are differences of times over 1 - s. */
+/* If corners are on samples, all values are exact. Otherwise times are exact to one sample: rise
+ * and decay are differences of times over 1 - s. */
 static void check_triangle(const triangle *a, const mps_impact *e, bool on_samples)
 {
     const double slope = a->peak / fmin(a->rise, a->decay), sample = on_samples ? 1e-9 : DT;
@@ -116,7 +117,7 @@ static void windows(void **state)
 {
     (void)state;
     mps_stats_config config = event_config();
-    /* below 10 from 3.5 to 6.5: crossings lie half way */
+    /* below 10 from 3.5 to 6.5: crossings are at half distance */
     const double two[] = {0, 0, 0, 20, 0, 0, 0, 20, 0, 0};
     config.window = 2.5;
     check_counts(&config, 10, two, 2, 0);

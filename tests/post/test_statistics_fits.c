@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Distributions of peaks: published values, exact quantiles, the likelihood by brute force, coverage of bands, the long term. */
+/* Distributions of peaks: published values, exact quantiles, the likelihood by brute force,
+ * coverage of bands, the long term. */
 #include "stats_fixture.h"
 
 enum { SAMPLES = 200, PEAKS = 200 };
@@ -32,7 +33,8 @@ static double quantile(const mps_fit *fit, double q)
     return fit->location + fit->scale * (x != 0 ? expm1(x * l) / x : l);
 }
 
-/* OrcaFlex 11.5e, as published in docs/orcaflex_verification.md of ANYtimeseries, prints 59,019.1. */
+/* OrcaFlex 11.5e, as published in docs/orcaflex_verification.md of ANYtimeseries, prints
+ * 59,019.1. */
 static void published_values(void **state)
 {
     (void)state;
@@ -94,7 +96,8 @@ static double likelihood(const mps_fit *f, int n, const double *peaks, double sc
     return sum;
 }
 
-/* No pair of parameters near the fit is likelier, in steps down to a millionth; and the likelihood is what the fit says. */
+/* No pair of parameters near the fit has a larger likelihood, in steps down to a millionth; and the
+ * likelihood is that of the fit. */
 static void largest_likelihood(void **state)
 {
     (void)state;
@@ -124,7 +127,8 @@ static void largest_likelihood(void **state)
     }
 }
 
-/* Exact quantiles of many peaks: the fit tends to the parameters, from heavy tails to bounded ones, through x = 0. */
+/* Exact quantiles of many peaks: the fit tends to the parameters, from heavy tails to bounded ones,
+ * through x = 0. */
 static void quantiles_come_back(void **state)
 {
     (void)state;
@@ -197,7 +201,8 @@ static coverage count_coverage(const mps_stats_config *config, const mps_fit *kn
     return c;
 }
 
-/* A band of 90 % holds the true value in 80 to 97 % of the samples, down to the fewest peaks that are fitted. */
+/* A band of 90 % contains the true value in 80 to 97 % of the samples, down to the least number of
+ * peaks. */
 static void coverage_of_bands(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory that runs out: malloc(), calloc() and realloc() fail at the k-th call, for k = 1, 2, ... until a function runs through. Each
- * failure is MPS_E_NOMEM with a text and leaves nothing. Left out where the address sanitizer has functions of its own. */
+/* Out of memory: malloc(), calloc() and realloc() fail at the k-th call, for k = 1, 2, ... until a
+ * function succeeds. Each failure is MPS_E_NOMEM with a text and leaks nothing. Skipped with the
+ * address sanitizer, which has its own functions. */
 #include "stats_fixture.h"
 #include <errno.h>
 #include <unistd.h>
@@ -96,7 +97,7 @@ static mps_status peaks(const mps_stats_config *config)
     return status;
 }
 
-/* The folder of a run that is done, or of one that goes on: its rows are those of `path`. */
+/* The folder of a complete run, or of one in progress: its rows are those of `path`. */
 static mps_status constants(const mps_stats_config *config)
 {
     mps_stats_config own = *config;

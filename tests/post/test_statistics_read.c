@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Constants of a run, read from its folder: those of the case, those that follow from tank and liquid, and those of a run that still goes on. */
+/* Constants of a run, read from its folder: those of the case, defaults from tank and liquid, and
+ * those of a run in progress. */
 #include "page_fixture.h"
 #include <mps/stats.h>
 #include "locale_kit.h"
@@ -95,7 +96,7 @@ static void tank_and_liquid_tell_a_period(void **unused)
     scene_remove(&s);
 }
 
-/* Without a summary the last row tells how long the record is. */
+/* Without a summary the last row determines the length of the record. */
 static void a_run_that_goes_on(void **unused)
 {
     (void)unused;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Arguments that functions of statistics refuse: the status, the words, and what stays as it was. */
+/* Arguments that functions of statistics refuse: the status, the text, and unchanged outputs. */
 #include "stats_fixture.h"
 
 enum { SAMPLES = 400 };
@@ -51,7 +51,7 @@ static void configs(void **state)
     assert_null(table);
 }
 
-/* A text of an error needs a place. */
+/* An error text needs a buffer. */
 static void places_of_texts(void **state)
 {
     const double spacing[3] = {1, 2, 3}, value[3] = {1, INFINITY, 3};
@@ -118,7 +118,7 @@ static void results(void **state)
     assert_int_equal(mps_impacts_fit_get(impacts, 0, &other_fit), MPS_E_ARG);
     assert_int_equal(mps_impacts_fit_get(impacts, 2, &fit), MPS_E_ARG);
     assert_int_equal(mps_impacts_highest(NULL, 0, &one), MPS_E_ARG);
-    for (int64_t k = -1; k <= 10; k += 11) { /* beside the ten */
+    for (int64_t k = -1; k <= 10; k += 11) { /* in addition to the ten */
         assert_int_equal(mps_impacts_get(impacts, k, &one), MPS_E_ARG);
         assert_int_equal(mps_impacts_highest(impacts, k, &one), MPS_E_ARG);
         assert_int_equal(mps_impacts_exceedance(impacts, k, &point), MPS_E_ARG);
@@ -145,7 +145,7 @@ static void texts(void **state)
     assert_int_equal(mps_stats_json_write(1, no_names, all, 3, text, sizeof text), 0);
     assert_int_equal(mps_stats_json_write(1, names, all, 3, NULL, sizeof text), 0);
     assert_int_equal(mps_stats_json_write(1, names, all, -1, text, sizeof text), 0);
-    /* more than there are is all there are */
+    /* a larger number gives all */
     assert_int_equal(mps_stats_json_write(1, names, all, 10, NULL, 0),
                      mps_stats_json_write(1, names, all, 1000, NULL, 0));
     mps_impacts_destroy(impacts);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A signal as a whole: scales, dependence, default threshold, panels; arguments, constants and structs that are refused. */
+/* Complete signals: scales, dependence, default threshold, panels; arguments, constants and structs
+ * that are refused. */
 #include "event_fixture.h"
 
 /* ---- the signal as a whole ---- */
@@ -188,7 +189,8 @@ static void constants_refused(void **state)
     assert_int_equal(mps_impacts_find(NULL, 0, NULL, NULL, &impacts), MPS_E_ARG);
 }
 
-/* A program of a newer version has a longer config: good, as long as it uses none of the new entries. */
+/* A program of a newer version has a longer config: good, as long as it uses none of the new
+ * entries. */
 static void newer_structs(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Columns of CSV files: names and units, long files, errors with file and line; statistics as CSV and JSON. */
+/* Columns of CSV files: names and units, long files, errors with file and line; statistics as CSV
+ * and JSON. */
 #include "stats_fixture.h"
 #include <errno.h>
 #include <unistd.h>
@@ -191,7 +192,8 @@ static void csv(void **state)
     assert_true(cut[sizeof cut - 2] == 0 && cut[sizeof cut - 1] == 7);
     const char *second = strchr(text, '\n') + 1;
     assert_memory_equal(text, "sensor,t[s],peak[Pa],rise[s],decay[s],skewness,duration[s],", 59);
-    /* P = 34 at t = 2, 1 s up and down; above 5 for 2 (1 - 5/34) s; the fifth of the peaks is the one of 58 */
+    /* P = 34 at t = 2, 1 s up and down; above 5 for 2 (1 - 5/34) s; the fifth of the peaks is the
+     * one of 58 */
     assert_memory_equal(second, "P1,2,34,1,1,1,1.70588235,33.2647059,", 36);
     assert_non_null(strstr(text, "\n\"a \"\"b\"\", c\",2,34,"));
     int64_t ranks = 0, rows = 0;
@@ -212,7 +214,7 @@ static void csv(void **state)
     mps_impacts_destroy(impacts);
 }
 
-/* A decay that the record does not hold. */
+/* A decay beyond the end of the record. */
 static void unknown_numbers(void **state)
 {
     (void)state;

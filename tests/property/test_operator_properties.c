@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the operators must satisfy whatever the cloud: consistency on the lattice, symmetries, conservation. */
+/* Properties of the operators on any set of particles: consistency on the lattice, symmetries,
+ * conservation. */
 #include "../unit/cloud.h"
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <cmocka.h>
 
-/* A cloud with its list and stencil (improved kernel, re = 2.1 dp unless told). */
+/* A set of particles with its list and stencil (default: improved kernel, re = 2.1 dp). */
 typedef struct scene {
     cloud c;
     mps_neighbours *list;
@@ -61,7 +62,7 @@ static void assert_close(const double *a, const double *b, int64_t n, double tol
                      scale);
 }
 
-/* ---- consistency ------------------------------------------------------------------------------------------------ */
+/* ---- consistency ----------------------------------------------------------------------------- */
 
 static void sum_of_weights(void **state)
 {
@@ -112,7 +113,8 @@ static void constants_vanish(void **state)
     }
 }
 
-/* f = a.x + 3 and u = G x: gradient a, divergence tr G; exact where `all` or the neighbourhood is full. */
+/* f = a.x + 3 and u = G x: gradient a, divergence tr G; exact where `all` or the neighbourhood is
+ * full. */
 static void check_linear(scene *s, const double *b, bool all)
 {
     static const double a[3] = {1.5, -2.25, 0.75}, G[9] = {1, 2, -1, 0.5, -3, 1, 4, -2, 2.5};
@@ -185,9 +187,10 @@ static void laplacian_of_square(void **state)
     }
 }
 
-/* ---- symmetries ------------------------------------------------------------------------------------------------- */
+/* ---- symmetries ------------------------------------------------------------------------------ */
 
-/* Results of all operators for one scene: density, divergence, laplacian [n]; gradient, conservative, asymmetry [n*dim]. */
+/* Results of all operators for one scene: density, divergence, laplacian [n]; gradient,
+ * conservative, asymmetry [n*dim]. */
 enum { SCALARS = 3, VECTORS = 3, RESULTS = 6 };
 
 static void run_all(const scene *s, const double *f, const double *u, double *out[RESULTS])
@@ -206,7 +209,7 @@ static void free_all(double *out[RESULTS])
     for (int k = 0; k < RESULTS; k++) free(out[k]);
 }
 
-/* A quarter turn about z of `n` vectors. */
+/* Rotate `n` vectors by 90 degrees about z. */
 static void turn(double *v, int64_t n, int dim)
 {
     for (int64_t i = 0; i < n; i++) {
@@ -216,7 +219,8 @@ static void turn(double *v, int64_t n, int dim)
     }
 }
 
-/* r_ij is the same number after a shift, and a swapped one after a quarter turn: results are the same bytes. */
+/* r_ij is the same number after a translation, and permuted after a rotation by 90 degrees: results
+ * have the same bytes. */
 static void translation_and_rotation(void **state)
 {
     (void)state;
@@ -291,7 +295,7 @@ static void permutation(void **state)
     }
 }
 
-/* ---- conservation ------------------------------------------------------------------------------------------------ */
+/* ---- conservation ---------------------------------------------------------------------------- */
 
 static double dot(const double *a, const double *b, int64_t n, double *size)
 {
@@ -304,7 +308,8 @@ static double dot(const double *a, const double *b, int64_t n, double *size)
     return sum;
 }
 
-/* Pair forces cancel: the conservative gradient and the Laplacian sum to nothing over all particles. */
+/* Pair forces cancel: the conservative gradient and the Laplacian sum to nothing over all
+ * particles. */
 static void momentum_balance(void **state)
 {
     (void)state;
@@ -336,7 +341,8 @@ static void momentum_balance(void **state)
     }
 }
 
-/* The Laplacian is symmetric and negative; divergence and conservative gradient are minus each other's transpose. */
+/* The Laplacian is symmetric and negative; divergence and conservative gradient are minus each
+ * other's transpose. */
 static void adjoint_pairs(void **state)
 {
     (void)state;
@@ -366,7 +372,7 @@ static void adjoint_pairs(void **state)
     }
 }
 
-/* ---- surface and bounds ------------------------------------------------------------------------------------------ */
+/* ---- surface and bounds ---------------------------------------------------------------------- */
 
 /* |A| in the top row of a half space, by counting lattice points. */
 static double half_space(const mps_stencil *t)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* examples/python/coupled_box.py in C: it prints the same line. `speed` compares the times of both, and of their steps. */
+/* examples/python/coupled_box.py in C: it prints the same line. `speed` compares the times of both,
+ * and of their steps. */
 #include <math.h>
 #include <mps/mps.h>
 #include <stdio.h>
@@ -43,7 +44,7 @@ static mps_sim *set_up(void)
     return sim;
 }
 
-/* The state of the box: place, velocity, acceleration. */
+/* The state of the box: position, velocity, acceleration. */
 typedef struct box {
     double x, v, a;
 } box;

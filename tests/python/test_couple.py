@@ -59,7 +59,7 @@ class Coupled(unittest.TestCase):
             sim.load(centre=(np.nan, 0))
 
     def test_records(self) -> None:
-        """An entry is read when it is asked for, once, and stays what it was when the library goes on."""
+        """An entry is read once, at its first access, and does not change with later steps."""
         sim = full_box()
         sim.watch_load(mass=True)
         info = sim.step(1e-3)

@@ -73,7 +73,7 @@ class Lifetimes(unittest.TestCase):
         self.addCleanup(lambda: (catch.__exit__(None, None, None), os.chdir(self.home), self.folder.cleanup()))
 
     def closed(self, one: Any, why: str) -> None:
-        """Each call of what is closed says so."""
+        """Each call of a closed object raises an error."""
         asked = 0
         for name, call in calls(one):
             if name in QUIET | LASTING:
@@ -156,7 +156,8 @@ class Lifetimes(unittest.TestCase):
         seen[1].take()
 
     def test_within_callbacks(self) -> None:
-        """Closing what runs is refused, by the monitor, a motion, a log, a model, a body, a fill, a solid; then all goes on."""
+        """Closing a running object is refused in the monitor, a motion, a log, a model, a body, a
+        fill and a solid; the run continues."""
         sim = still()
         refused: list[str] = []
 

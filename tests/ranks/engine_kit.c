@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conformance of an engine of ranks: values are functions of ranks and places, so that each rank knows what it must get. */
+/* Conformance of a communication engine: values are functions of ranks and positions, so that each
+ * rank knows the values that it must receive. */
 #include "engine_kit.h"
 #include <stdarg.h>
 #include <stdbool.h>
@@ -176,7 +177,7 @@ static void expect_alike(kit *k, const void *data, int64_t size, const char *wha
     free(all);
 }
 
-/* Any place of a box is owned by a rank of its list. */
+/* Any position in a box is owned by a rank of its list. */
 static void check_boxes(kit *k, int dim, const double *x, const int32_t *owner)
 {
     int32_t *list = take((size_t)k->ranks * sizeof *list), count = -1;
@@ -224,7 +225,7 @@ static void check_owners(kit *k, int dim)
     check_boxes(k, dim, x, owner);
 }
 
-/* Places of a partition: at random, in a lattice, or all of them one. */
+/* Positions of a partition: random, on a lattice, or all equal. */
 enum { RANDOM, LATTICE, POINT, NONE };
 
 static void check_balance(kit *k, int64_t n, const double *x, const float *weight, double balance)

@@ -140,7 +140,8 @@ mps_status scene_create(const scene *s, mps_sim **sim)
     return mps_sim_create(&config, sim);
 }
 
-/* Under the name "divided": auxgrid that divides all grids but the last, as it does with large ones. */
+/* Under the name "divided": auxgrid that divides all grids but the last, as it does with large
+ * ones. */
 static mps_status register_divided(mps_sim *sim)
 {
     static int64_t whole = 1;
@@ -162,7 +163,8 @@ static mps_status add_air(mps_sim *sim, const scene *s, const double lo[3], cons
     return status;
 }
 
-/* A sensor on the wall that the liquid meets, a gauge, a pressure in the liquid, the forces on all walls and on the floor. */
+/* A sensor on the wall that the liquid meets, a gauge, a pressure in the liquid, the forces on all
+ * walls and on the floor. */
 static mps_status add_probes(mps_sim *sim)
 {
     static const int32_t types[SCENE_PROBES] = {MPS_PROBE_WALL_PRESSURE, MPS_PROBE_GAUGE,
@@ -243,7 +245,7 @@ static mps_status speed_up(mps_sim *sim)
     return mps_lease_end(sim, &u);
 }
 
-/* Fluid is taken away before step 9, and some comes before step 13. */
+/* Fluid is removed before step 9, and some is added before step 13. */
 mps_status scene_change(mps_sim *sim, const scene *s, int step)
 {
     enum { GO = 25, COME = 4 };

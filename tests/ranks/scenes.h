@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Scenes whose bytes do not depend on the number of ranks, and what is compared of them. */
+/* Scenes whose bytes do not depend on the number of ranks, and the compared data. */
 #ifndef RANKS_SCENES_H
 #define RANKS_SCENES_H
 
@@ -15,10 +15,10 @@ typedef struct scene {
     mps_motion_fn motion;
     int baffle;   /* 1: a block, 2: a thin plate, in the way of the fluid */
     double sigma; /* of the interface [N/m] */
-    bool changes; /* particles go and come between steps */
+    bool changes; /* particles are removed and added between steps */
     bool fast;    /* the liquid starts in pieces faster than 5 U_g */
-    bool
-        drop; /* the liquid is a drop about the middle of the tank, where the cuts of four ranks meet */
+    bool drop;    /* the liquid is a drop about the middle of the tank, where the cuts of four ranks
+                 meet */
     /* NULL: auxgrid; "divided": auxgrid that divides small grids too */
     const char *preconditioner;
     bool gas; /* the liquid encloses a pocket of gas */
@@ -39,9 +39,10 @@ mps_status scene_build(mps_sim *sim, const scene *s);
 
 /* Before a step, from 0: what changes in it. */
 mps_status scene_change(mps_sim *sim, const scene *s, int step);
-/* The owned particles of this rank, into a record that is empty at first; rank 0 adds the numbers of the step. */
+/* The owned particles of this rank, into a record that is empty at first; rank 0 adds the numbers
+ * of the step. */
 void record_note(mps_sim *sim, const mps_step_info *info, record *r);
-/* Whether both have the same bytes; else `text` says what differs first. */
+/* Whether both have the same bytes; otherwise `text` is the first difference. */
 bool record_same(const record *alone, const record *many, char *text, size_t size);
 
 #endif

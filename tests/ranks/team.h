@@ -8,7 +8,7 @@
 #include "scenes.h"
 #include <string.h>
 
-/* @return the scene of a name; NULL: there is none */
+/* @return the scene of a name; NULL: no such scene */
 static inline const scene *scene_named(const char *name)
 {
     for (int k = 0; k < SCENES; k++)
@@ -16,8 +16,8 @@ static inline const scene *scene_named(const char *name)
     return NULL;
 }
 
-/* Whether a scene runs in this one of so many ways, e.g. numbers of ranks: in all of them, but under sanitizers in one. All ways come among
- * the scenes then. */
+/* Whether a scene runs in this one of several variants, e.g. numbers of ranks: in all of them,
+ * under sanitizers in one. The scenes together then cover all variants. */
 static inline bool scene_runs(const scene *s, int way, int ways)
 {
     return has_turn(s - scenes, ways - way, ways);

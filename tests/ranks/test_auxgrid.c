@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* `auxgrid` of one equation whose rows lie on many ranks has the bytes of one rank, wherever the cuts are. */
+/* `auxgrid` for an equation distributed over many ranks has the bytes of one rank, for any
+ * partition. */
 #include "../../src/ppe/builtin.h"
 #include "../conformance/solver_kit.h"
 #include "kit_engine.h"
@@ -12,7 +13,7 @@
 #include <cmocka.h>
 
 enum { RANKS = 9, CUTS = 3 };
-static const double reach = 3.1; /* of the widest lattice; more than auxgrid asks for [dp] */
+static const double reach = 3.1; /* of the widest lattice; more than auxgrid needs [dp] */
 
 /* What all ranks have together. */
 typedef struct world {
@@ -20,7 +21,8 @@ typedef struct world {
     const kit_system *system;
     double *z, *shared; /* [particles] */
     int32_t threads;
-    int64_t whole; /* cells from which on a grid is divided; 0: the default, more than there are */
+    int64_t whole;   /* number of cells from which a grid is distributed; 0: the default, more than
+                      exist */
     int64_t fail_at; /* allocation of rank 1 that fails; 0: none */
     int reason[RANKS];
 } world;
@@ -32,7 +34,7 @@ typedef struct piece {
     mps_ppe_problem problem;
     mps_ppe_ranks ranks;
     int64_t columns;
-    int32_t *particle, *column; /* [columns], [particles] -1: not here */
+    int32_t *particle, *column; /* [columns], [particles] -1: not on this rank */
 } piece;
 
 static void *take(int64_t count, size_t size)
@@ -331,7 +333,7 @@ static void few_particles(void **state)
 static void all_refuse(void **state)
 {
     (void)state;
-    static const double wrong[] = {-1, 0}; /* 0 stands for NaN */
+    static const double wrong[] = {-1, 0}; /* 0 represents NaN */
     kit_system *s = kit_lattice_system(&(kit_lattice){2, 30, 20, 1, 1, 1, 3.1, 1, 0});
     assert_non_null(s);
     for (int k = 0; k < 2; k++) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Cuts follow what ranks worked: when space is cut again, and what particles of a slow rank weigh then. */
+/* Load balance: when space is repartitioned, and the weights of particles of a slow rank. */
 #include "kit_engine.h"
 #include "scenes.h"
 #include "sim.h"
@@ -31,7 +31,7 @@ static double load_of(const mps__world *w)
     return load;
 }
 
-/* Two steps that are taken, then as many as are compared of which only the seconds are told. */
+/* Two real steps, then as many as are compared with given seconds only. */
 static void run_rank(void *argument, int32_t rank)
 {
     run *k = argument;
@@ -97,7 +97,7 @@ static void slow_ranks_get_less(void **state)
     assert_true(fabs(k.cost[1] - 3 / k.load[1] * mean) < 1e-6 * k.cost[1]);
     assert_true(k.cost[1] > 1 && k.cost[0] < 1);
     assert_true(take(1e-3, 1e3, 0).cost[0] == 0.2); /* limited */
-    assert_true(take(0, 1, 0).cost[0] == 1);        /* no work says nothing */
+    assert_true(take(0, 1, 0).cost[0] == 1);        /* no work, no information */
 }
 
 int main(void)

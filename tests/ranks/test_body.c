@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A body that carries the tank moves by the same bytes on any number of ranks: its load and its added mass are sums over all of them. */
+/* A rigid body that carries the tank has bitwise the same motion on any number of ranks: its load
+ * and its added mass are sums over all of them. */
 #include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -22,7 +23,7 @@ typedef struct run {
     char error[4][TEXT];
 } run;
 
-/* Free along x and to turn, in 3-D about all axes. */
+/* Free along x and to rotate, in 3-D about all axes. */
 static mps_status set_body(mps_sim *sim, int32_t dim)
 {
     mps_body b;

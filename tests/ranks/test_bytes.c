@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. The environment variables MPS_RANKS_STEPS and MPS_RANKS_THREADS
- * ask for other numbers of steps, and of threads of each rank. */
+/* Runs on 2, 3, 4 and 7 ranks have the bytes of a run on one, after every step. The environment
+ * variables MPS_RANKS_STEPS and MPS_RANKS_THREADS set other numbers of steps, and of threads of
+ * each rank. */
 #include "team.h"
 #include "sim.h"
 #include <setjmp.h>
@@ -27,7 +28,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_step_info_init(&info, sizeof info);
     mps_status status = scene_start(k->scene, k->team, rank, &sim);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
-        sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
+        sim->world.ghosts.recut = s % 7 == 3; /* a new partition in each neighbour search */
         status = scene_change(sim, k->scene, s);
         if (status == MPS_OK) status = mps_step(sim, 1, &info);
         if (status >= 0) record_note(sim, &info, &k->records[s]);

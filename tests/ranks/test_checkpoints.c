@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints of any number of ranks are the same file, and go on with any other number as if nothing had been. */
+/* Checkpoints of any number of ranks are the same file, and are resumed with any other number with
+ * the same bytes. */
 #include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Ranks that have a device each have the bytes of a run alone on the host; what a failure on one of them does. */
+/* Ranks with a device each have the bytes of one rank on the host; failures on one of them. */
 #include "team.h"
 #include "shadow.h"
 #include <setjmp.h>
@@ -11,7 +11,8 @@
 
 enum { TEXT = 300, MOST = 4, FIRST = 5 /* tests before those of scenes */ };
 
-/* The scene as it is; with liquid that fills the tank, so that nothing gives its pressures a level; with gas.pocket that finds no pocket. */
+/* The scene unchanged; with a tank full of liquid, without a pressure datum; with gas.pocket that
+ * finds no pocket. */
 enum { AS_IT_IS, FULL, WITHOUT_POCKET };
 
 typedef struct run {
@@ -52,7 +53,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_step_info_init(&info, sizeof info);
     mps_status status = start(k, rank, &sim);
     for (int s = 0; s < k->scene->steps && status >= 0; s++) {
-        sim->world.ghosts.recut = s % 7 == 3; /* new cuts whenever a search comes */
+        sim->world.ghosts.recut = s % 7 == 3; /* a new partition in each neighbour search */
         status = scene_change(sim, k->scene, s);
         if (status == MPS_OK) status = mps_step(sim, 1, &info);
         /* else the next step begins with fields that the device has alone */
@@ -90,7 +91,8 @@ static void give_back(run *k)
     free(k);
 }
 
-/* What is so: the devices solve the equation, else the hosts; auxgrid has more than one grid there. */
+/* Expected: the devices solve the equation, or else the hosts; auxgrid has more than one grid on
+ * the device. */
 enum { THERE = 1, GRIDS = 2 };
 
 static void compare(const scene *s, int another, int32_t ranks, int what)
@@ -144,7 +146,7 @@ static void pressures_without_a_level(void **state)
     compare(&s, FULL, 3, 0);
 }
 
-/* All ranks wait in the same steps, and look in the same steps. */
+/* All ranks wait in the same steps, and search voids in the same steps. */
 static void gas_without_a_pocket(void **state)
 {
     scene s = *scene_named("roll_2d");
@@ -157,7 +159,7 @@ static void gas_without_a_pocket(void **state)
 
 typedef struct refusal {
     kit_engine_team *team;
-    int launch; /* of a step that fails on rank 0; 0: it has no room */
+    int launch; /* launch of a step that fails on rank 0; 0: it has no memory */
     shadow device[2];
     mps_status status[2][3];
     char error[2][3][TEXT];
@@ -174,7 +176,8 @@ static int does_not_open(void *self)
     return 1;
 }
 
-/* Rank 0 sets a device and rank 1 none; the device of rank 1 does not open; then that of rank 0 fails in a step. */
+/* Rank 0 sets a device and rank 1 none; the device of rank 1 does not open; then that of rank 0
+ * fails in a step. */
 static void refuse(void *argument, int32_t rank)
 {
     refusal *k = argument;
@@ -194,7 +197,7 @@ static void refuse(void *argument, int32_t rank)
     shadow_attach(&k->device[rank], sim);
     assert_int_equal(mps_step(sim, 1, NULL), MPS_OK);
     if (k->launch == 0)
-        mps__ghosts_leave(&sim->world.ghosts); /* what they have there is made again */
+        mps__ghosts_leave(&sim->world.ghosts); /* their arrays on the device are created again */
     k->device[rank].refuses = k->launch == 0 && rank == 0;
     k->device[rank].fails_at = rank == 0 && k->launch > 0 ? k->device[rank].launches + k->launch
                                                           : 0;
@@ -226,7 +229,7 @@ static void check_refusals(int launch)
 
 typedef struct shortage {
     kit_engine_team *team;
-    int64_t gives; /* pieces of room that rank 0 has */
+    int64_t gives; /* allocations of rank 0 */
     shadow device[2];
     mps_status status[2];
     char error[2][TEXT];
@@ -245,7 +248,7 @@ static void run_short(void *argument, int32_t rank)
     mps_sim_destroy(sim);
 }
 
-/* Rank 0 runs out of room at one place of a step after the other: both ranks report it. */
+/* Rank 0 runs out of device memory at each allocation of a step in turn: both ranks report it. */
 static void room_for_a_part(void **state)
 {
     int shortages = 0;

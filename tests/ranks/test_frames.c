@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Frames of many ranks: pieces that together have the particles of one rank, each once; what happens where a rank cannot write its piece. */
+/* Frames of many ranks: pieces that together have the particles of one rank, each once; behaviour
+ * if a rank cannot write its piece. */
 #include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -19,7 +20,7 @@ typedef struct run {
     int frames;                            /* 0: FRAMES */
     bool blocked;                          /* rank 1 cannot write its piece of the second frame */
     mps_status status[MOST_RANKS][FRAMES]; /* of the frames */
-    mps_status wrong[MOST_RANKS];          /* of a frame of gathered particles */
+    mps_status wrong[MOST_RANKS];          /* of a frame of collected particles */
     char error[MOST_RANKS][TEXT];
 } run;
 
@@ -28,7 +29,7 @@ static void note(run *k, mps_sim *sim, int32_t rank, mps_status status)
     if (status < 0) snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
 }
 
-/* Before the first step, after it, and when particles have gone and come. */
+/* Before the first step, after it, and after particles were removed and added. */
 static const int frame_step[FRAMES] = {0, 1, 13};
 
 static void write_frames(run *k, mps_sim *sim, int32_t rank, mps_frames *frames)
@@ -119,7 +120,8 @@ static const char *array_of(const char *text, const char *name)
            sizeof(uint64_t);
 }
 
-/* Pressures of the particles of a file go to the places of their ids, which must be empty. Returns how many there are. */
+/* Store the pressures of the particles of a file at the indices of their ids, which must be empty.
+ * Returns their number. */
 static int64_t collect(const char *path, float p[IDS])
 {
     char *text = slurp(path);
@@ -221,7 +223,7 @@ static void whole_frames_need_all(void **state)
     remove_folder(&k);
 }
 
-/* ---- going on with a series ---- */
+/* ---- continued series ---- */
 
 static int64_t files_in(const run *k, char names[TEXT])
 {
@@ -236,7 +238,8 @@ static int64_t files_in(const run *k, char names[TEXT])
     return count;
 }
 
-/* The first frame of the same folder is written again on other numbers of ranks: no file of the others is left. */
+/* The first frame of the same folder is written again on other numbers of ranks: no file of the
+ * others is left. */
 static void other_ranks_go_on(void **state)
 {
     (void)state;

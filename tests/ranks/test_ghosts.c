@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles that all ranks know by their ids move at random: each has one owner at any time, all ghosts within reach are there, and shared values
- * are those of the owners. */
+/* Particles with ids known to all ranks move at random: each has one owner at any time, all ghosts
+ * within reach exist, and exchanged values are those of the owners. */
 #include "kit_engine.h"
 #include "ghosts.h"
 #include <math.h>
@@ -22,7 +22,7 @@ typedef struct world {
     mps_status status[RANKS];
 } world;
 
-/* Place of a particle in a step, by its id: a walk within the unit cube. */
+/* Position of a particle in a step, by its id: a walk within the unit cube. */
 static void place_of(int64_t id, int step, int dim, double *x)
 {
     for (int d = 0; d < dim; d++) {
@@ -81,7 +81,7 @@ static mps_status turn_round(mps__ghosts *g)
     return status;
 }
 
-/* Particles of other ranks within reach of an owned one that are not here. */
+/* Number of missing ghosts: particles of other ranks within reach of an owned one. */
 static int64_t missing_ghosts(const mps__ghosts *g, int64_t all, int step)
 {
     const mps__particles *s = g->particles;
@@ -102,7 +102,7 @@ static int64_t missing_ghosts(const mps__ghosts *g, int64_t all, int step)
     return missing;
 }
 
-/* Values that only owners know come to the ghosts. */
+/* Halo exchange of values that only owners have. */
 static mps_status check_share(mps__ghosts *g, int64_t *wrong)
 {
     mps__particles *s = g->particles;

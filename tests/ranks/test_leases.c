@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Leases on many ranks: after each call ghosts have the values of their owners, in every field; what a rank writes at its own particles is what
- * the next step begins with on all. */
+/* Leases on many ranks: after each call ghosts have the values of their owners, in every field;
+ * values that a rank writes at its own particles are the initial values of the next step on all
+ * ranks. */
 #include "team.h"
 #include "sim.h"
 #include <setjmp.h>

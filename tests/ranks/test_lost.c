@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles behind a wall are lost once, where a cut passes through them too: those that are ghosts elsewhere do not count there. */
+/* Particles behind a wall are lost once, also at a boundary between ranks: ghosts are not
+ * counted. */
 #include "team.h"
 #include "sim.h"
 #include <setjmp.h>
@@ -19,7 +20,7 @@ typedef struct run {
     char error[MOST][TEXT];
 } run;
 
-/* Fluid on the floor comes below it, before the dummies there. */
+/* Fluid on the floor moves below it, in front of its dummies. */
 static mps_status spill(const run *k, mps_sim *sim)
 {
     const double dp = k->scene->dp;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Memory that runs out on one rank, at each allocation in turn: all ranks end, none waits, nothing leaks. */
+/* Out of memory on one rank, at each allocation in turn: all ranks end, none waits, nothing
+ * leaks. */
 #include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -67,7 +68,7 @@ static mps_status use(mps_sim *sim, const run *k)
     mps_status status = mps_step(sim, 1, NULL);
     for (int pass = 0; pass < 2 && status >= 0; pass++) {
         status = mps_step(sim, 1, NULL);
-        const bool room = k->scene->preset[0] == 'i'; /* gas leaves none */
+        const bool room = k->scene->preset[0] == 'i'; /* gas fills the rest */
         if (status >= 0 && room) status = mps_particles_add(sim, &block, &id);
         if (status >= 0) status = write_frame(sim, k->folder);
         if (status >= 0) status = mps_checkpoint_write(sim, k->file);

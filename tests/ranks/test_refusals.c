@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What is refused: tables of engines, engines that do not begin, and calls at the wrong time. */
+/* Refusals: tables of engines, engines that fail in create, and calls at the wrong time. */
 #include "kit_engine.h"
 #include "scenes.h"
 #include <setjmp.h>
@@ -192,7 +192,7 @@ static void calls(void **state)
     assert_int_equal(mps_particles_ghosts(NULL, NULL), MPS_E_ARG);
 }
 
-/* An engine comes before what it is to divide. */
+/* An engine is set before the particles that it partitions. */
 static void after_particles(void **state)
 {
     (void)state;

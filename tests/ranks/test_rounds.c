@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* How many messages a step takes: rounds and bytes against a table. Both are exact, as results and cuts are. When a change takes fewer, put
- * the new numbers here; when it takes more, find out why first. */
+/* Number of messages of a step: rounds and bytes against a table. Both are exact, because results
+ * and partitions are. If a change needs fewer, enter the new numbers here; if it needs more, find
+ * the reason first. */
 #include "team.h"
 #include "sim.h"
 #include <setjmp.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Snapshots on any number of ranks: what goes on from one is what one rank does that never went another way. */
+/* Snapshots on any number of ranks: steps after a restore are those of one rank without
+ * snapshots. */
 #include "team.h"
 #include <setjmp.h>
 #include <stdarg.h>
@@ -10,7 +11,8 @@
 
 enum { TEXT = 300, STEPS = 24, TAKES = 3 };
 
-/* Before these steps a snapshot is taken; after so many more it is restored, twice. Space is divided and cut anew meanwhile. */
+/* Before these steps a snapshot is taken; after so many more it is restored, twice. Space is
+ * divided and cut anew meanwhile. */
 static const int take_at[TAKES] = {1, 6, 15}, away[TAKES] = {1, 9, 2};
 
 typedef struct run {
@@ -32,7 +34,8 @@ static mps_status advance(mps_sim *sim, const scene *s, int from, int to, mps_st
     return status;
 }
 
-/* Back from another way; the added mass, and a field, begin while the places of a search wait for the next one. */
+/* Restore after other steps; the added mass, and a field, are first used while positions of a
+ * search are kept for the next one. */
 static mps_status go_astray(mps_sim *sim, const run *k, mps_snapshot *snapshot, mps_step_info *info)
 {
     const int32_t what = strstr(k->scene->preset, "paper") ? MPS_LOAD_FORCE : MPS_LOAD_MASS;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Voids on many ranks: the same raster as on one, and of each face that has a particle one rank has the row. Numbers of a model go through a
- * checkpoint from one number of ranks to another. */
+/* Voids on many ranks: the same grid as on one rank, and one rank has the row of each face with a
+ * particle. Numbers of a model are preserved by a checkpoint between numbers of ranks. */
 #define _POSIX_C_SOURCE 200809L
 #include "../unit/void_fixture.h"
 #include "kit_engine.h"
@@ -94,7 +94,7 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim_destroy(sim);
 }
 
-/* A particle behind a face is known to one rank alone, and is the same as alone. */
+/* A particle behind a face is known on one rank only, and is the same as on a single rank. */
 static void compare_rows(const run *k, int64_t (*alone)[FACES])
 {
     int64_t with = 0;

@@ -7,7 +7,8 @@
 #include "model_fixture.h"
 #include "shadow.h"
 
-/* A tank that rolls, half full, with air above the liquid if a preset is for two phases. Nothing asks for fields between its steps. */
+/* A rolling tank, half full, with air above the liquid for presets of two phases. No fields are
+ * requested between its steps. */
 static inline mps_sim *unwatched(const char *preset, int32_t dim)
 {
     const double dp = dim == 2 ? 0.05 : 0.1, lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.6, 0.4};
@@ -22,7 +23,7 @@ static inline mps_sim *unwatched(const char *preset, int32_t dim)
     return sim;
 }
 
-/* The same with probes, some of which take samples. */
+/* The tank with probes, some of which take samples. */
 static inline mps_sim *rolling(const char *preset, int32_t dim)
 {
     mps_sim *sim = unwatched(preset, dim);
@@ -54,7 +55,8 @@ static inline void put_in_order(mps_sim *sim)
     ASSERT_OK(sim, mps_stencil_get(sim, MPS_NEAR, &near));
 }
 
-/* Whichever launch or download fails, the step fails and leaves the state as it was. `count`: that of the shadow, `fails_at`: which one. */
+/* If any launch or download fails, the step fails and the state is unchanged. `count`: that of the
+ * shadow, `fails_at`: number of the failing call. */
 static inline void fail_each(mps_sim *host, mps_sim *sim, const int64_t *count, int64_t *fails_at)
 {
     const int64_t before = *count;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Every public function that changes numbers or single fields of a simulation, as a call, with the
- * fields that it writes; and the names of all other functions that take a simulation. A new
- * function gets a line in one of the two lists: test_setters.c compares them with the headers. */
+ * fields that it writes; and the names of all other functions with a simulation argument. Add a
+ * line for a new function to one of the two lists: test_setters.c compares them with the
+ * headers. */
 #ifndef SHADOW_SETTER_CALLS_H
 #define SHADOW_SETTER_CALLS_H
 
@@ -294,7 +295,7 @@ static mps_status add_note(mps_sim *sim)
     return mps_checkpoint_note_add(sim, "a line");
 }
 
-/* Ranks come first: with a device it is refused, and nothing is copied. */
+/* Ranks must be set first: with a device it is refused, and nothing is copied. */
 static mps_status set_ranks(mps_sim *sim)
 {
     const mps_status status = mps_sim_ranks_set(sim, NULL);
@@ -304,8 +305,8 @@ static mps_status set_ranks(mps_sim *sim)
 
 /* ---- the table ------------------------------------------------------------------------------- */
 
-/* Fields that a call writes, and that are read on the host for it. Where the flow changes, a step
- * books what came with positions, velocities and densities. */
+/* Fields that a call writes, and fields that the host reads for it. If the flow changes, the
+ * budgets of a step need positions, velocities and densities. */
 enum { X = 1, U = 2, RHO = 4, MARK = 8, P = 16, FLOW = X | U | RHO };
 
 typedef struct setter {

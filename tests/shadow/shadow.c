@@ -89,8 +89,8 @@ void shadow_heap_of(mps_sim *sim, int32_t rank)
 
 /* ---- memory of the device ---- */
 
-/* Only the functions of the device open its rooms. Behind a loop that has run often they stay open. Rooms lie one behind the other, so that one call
- * opens or closes all. */
+/* Only functions of the device make its memory accessible. After a frequent loop it remains
+ * accessible. Allocations are contiguous, so that one call changes the protection of all. */
 static const size_t ARENA = (size_t)1 << 32;
 
 /* Whole pages. */
@@ -99,7 +99,7 @@ static size_t pages(uint64_t bytes)
     return ((size_t)bytes + 4095) & ~(size_t)4095;
 }
 
-/* The first gap for so many bytes, behind no room or behind one. */
+/* The first gap of this number of bytes, at the beginning or after an allocation. */
 static char *gap_for(const shadow *s, size_t bytes)
 {
     for (int after = -1; after < SHADOW_ROOMS; after++) {
@@ -155,7 +155,7 @@ static void give(void *self, void *begin)
     fail_msg("memory is given back that is none");
 }
 
-/* The room of an address, -1: it is memory of the host. */
+/* The allocation of an address, -1: host memory. */
 static int room_of(const shadow *s, const void *address)
 {
     for (int k = 0; k < SHADOW_ROOMS; k++)
@@ -274,14 +274,15 @@ int32_t shadow_seen(const shadow *s, const char *file, const char *name)
     return s->seen[slot_of(file, name)];
 }
 
-/* Whether the memory of the handle is closed for a launch, and that of the device behind it: for the first ones of a loop, because closing takes longer than
- * most loops. */
+/* Whether the memory of the handle is closed for a launch, and that of the device behind it: for
+ * the first ones of a loop, because closing takes longer than most loops. */
 static bool closes(shadow *s, const mps_launch *l)
 {
     return s->seen[slot_of(l->file, l->name)]++ < SHADOW_CLOSED;
 }
 
-/* A host address among the arguments would be followed on a device, to nowhere. Here it finds closed memory. */
+/* A host address among the arguments would be invalid on a device. Here its access finds protected
+ * memory. */
 static void run(shadow *s, const mps_launch *l, mps_exact *sum, double *maximum)
 {
     assert_int_equal(l->struct_size, sizeof *l);

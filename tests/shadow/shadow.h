@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Device with memory of its own on the host, closed to the processor but in its functions. Stale values are NaN in both copies. */
+/* A device with separate memory on the host, which is protected except in its functions. Stale
+ * values are NaN in both copies. */
 #ifndef SHADOW_H
 #define SHADOW_H
 
@@ -15,13 +16,13 @@ typedef struct shadow {
     int64_t bytes_up, bytes_down;         /* of all copies, with sums and maxima */
     int64_t launches;                     /* loops */
     int32_t ended;                        /* calls of a function of the test's */
-    bool refuses;                         /* room is refused, */
+    bool refuses;                         /* an allocation is refused, */
     int64_t gives;                        /* after so many pieces of it */
     bool dead;                            /* all fails that may */
     const char *why;                      /* what failed last; other calls forget it */
     int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
     int64_t dies_at;                      /* launch from which on all does */
-    char *arena, *arena_end;              /* memory of all rooms; NULL: there are none */
+    char *arena, *arena_end;              /* memory of all allocations; NULL: none */
     struct shadow_memory *heap;           /* of the handle; NULL: it is never closed */
     bool open;                            /* it is not closed: the loop before has run often */
     int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
@@ -31,11 +32,12 @@ typedef struct shadow {
     } room[SHADOW_ROOMS];
 } shadow;
 
-/* A handle that was just made takes its arrays from memory that is closed while loops run on a shadow. */
+/* A handle that was just made takes its arrays from memory that is closed while loops run on a
+ * shadow. */
 void shadow_heap(mps_sim *sim);
 /* The same for a rank that is a thread of its own: one handle at a time. */
 void shadow_heap_of(mps_sim *sim, int32_t rank);
-/* Steps of a simulation run on the shadow from now on; it must live longer. */
+/* Steps of a simulation run on the shadow from now on; it must outlive the simulation. */
 void shadow_attach(shadow *s, mps_sim *sim);
 /* Launches of a loop. */
 int32_t shadow_seen(const shadow *s, const char *file, const char *name);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Equations that the host and a device solve, with the same bytes, numbers and messages. Beside this file link conformance/solver_systems.c. */
+/* Equations solved on the host and on a device, with the same bytes, numbers and messages. Also
+ * link conformance/solver_systems.c. */
 #ifndef SHADOW_SOLUTIONS_H
 #define SHADOW_SOLUTIONS_H
 
@@ -14,7 +15,7 @@
 
 #include <cmocka.h>
 
-/* What a solution leaves. */
+/* Results of a solution. */
 typedef struct answer {
     mps_status status;
     mps_ppe_result result;
@@ -157,8 +158,8 @@ static inline void compare_solution(mps_sim *sim, const kit_lattice *lattice, co
     kit_system_free(s);
 }
 
-/* All of them with each preconditioner, in 2-D and 3-D. The device is attached. `part` > 1: boxes of that part of their sides, for a device that
- * takes long; then some end otherwise. */
+/* All of them with each preconditioner, in 2-D and 3-D. The device is attached. `part` > 1: boxes
+ * of that part of their sides, for a device that takes long; then some end otherwise. */
 static inline void compare_solutions(mps_sim *sim, int part)
 {
     static const kit_lattice lattices[] = {

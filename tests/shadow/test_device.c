@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A device is attached and taken off, refused, and fails; what a step on it costs. */
+/* A device is attached and detached, refused, and fails; costs of a step on it. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <math.h>
@@ -27,7 +27,7 @@ static void tables_are_checked(void **state)
     bad = s.ops;
     bad.struct_size = 8;
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "mps_device_ops");
-    /* the one before is still there */
+    /* the previous one is still attached */
     ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
     assert_string_equal(shadow_counts(sim).name, "shadow");
     mps_sim_destroy(sim);
@@ -125,7 +125,7 @@ static void failing_devices(void **state)
     }
 }
 
-/* A weight function of the user has no text that a device knows. */
+/* A weight function of the user has no device code. */
 static double weight(void *user, double r, double re)
 {
     (void)user;
@@ -147,7 +147,8 @@ static void own_kernel_stays_on_the_host(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Rows of more than a thousand candidates are found by the host, which has room for them. */
+/* Rows of more than a thousand candidates are found by the host, which has enough memory for
+ * them. */
 static mps_sim *wide_rows(void)
 {
     mps_sim *sim = new_sim(2, 0.02);
@@ -178,7 +179,8 @@ static void long_rows_stay_on_the_host(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What thin plates hide is taken out of rows of the device, which no list of the host takes the place of. */
+/* Particles occluded by thin plates are removed from rows of the device; lists of the host do not
+ * replace these rows. */
 static void plates_hide_on_the_device(void **state)
 {
     mps_sim *host = plate(), *sim = plate();
@@ -206,11 +208,12 @@ static void note(void *user, int level, const char *text)
     if (strstr(text, "on the host")) snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
 }
 
-/* Of an iteration of conjugate gradients with auxgrid of one grid: the product, three loops over vectors, three that decide and five of the
- * preconditioner, one of them a clear. The host queues eight and waits. */
+/* Launches of an iteration of conjugate gradients with auxgrid of one grid: the product, three
+ * loops over vectors, three for decisions and five of the preconditioner, one of them a clear. The
+ * host queues eight iterations and waits. */
 enum { LAUNCHES = 12, AT_ONCE = 8 };
 
-/* Ranges of one step beside iterations: from the first, to the second. */
+/* Ranges of one step without iterations: from the first to the second. */
 typedef struct cost {
     const char *preset;
     int32_t dim;
@@ -224,7 +227,8 @@ static void assert_in(const char *what, const cost *c, int64_t value, const int6
                  (long long)value, (long long)range[0], (long long)range[1]);
 }
 
-/* Wanted, with search, matrix and solution: 140 to 220 launches and 3 to 10 waits beside iterations, less than 2 kB, not 0, both ways together. */
+/* Limits, with search, matrix and solution: 140 to 220 launches and 3 to 10 waits without
+ * iterations, less than 2 kB, not 0, in both directions together. */
 static void costs(void **state)
 {
     static const cost table[] = {
@@ -259,7 +263,7 @@ static void costs(void **state)
         assert_in("bytes up", c, i.bytes_up, c->up);
         assert_in("bytes down", c, i.bytes_down, c->down);
         assert_true(i.bytes_held > i.bytes_up);
-        assert_string_equal(told, ""); /* of what runs on the host */
+        assert_string_equal(told, ""); /* of passes on the host */
         assert_int_equal(i.host_calls, 0);
         mps_sim_destroy(sim);
     }
@@ -290,8 +294,8 @@ static void solutions_on_the_host_are_told(void **state)
     }
 }
 
-/* Bytes up of a particle in steps with a search and without one: a search is done there, and so are order and permutation; only places of walls
- * come from the host. */
+/* Uploaded bytes per particle in steps with and without a search: search, order and permutation are
+ * done on the device; only positions of walls are uploaded. */
 static void searches_copy_little(void **state)
 {
     static const double range[2][2][2] = {{{0.02, 0.1}, {3, 5}}, {{0.005, 0.02}, {3, 5}}};
@@ -321,8 +325,9 @@ static void searches_copy_little(void **state)
     }
 }
 
-/* Bytes of a whole step where nothing asks for fields and the solver has no set-up on the host: sums, however many particles there are. A search
- * brings its order, 4 bytes of a particle, and sends places of walls, as many. */
+/* Bytes of a complete step without requests of fields and without solver setup on the host: only
+ * sums, for any number of particles. A search downloads its order, 4 bytes per particle, and
+ * uploads positions of walls, as many bytes. */
 static void fields_cost_nothing(void **state)
 {
     static const double most[2] = {4600, 5600};

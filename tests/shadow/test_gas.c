@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Trapped gas on a device: steps have the bytes of the host, and one that looks for no voids copies no field. */
+/* Trapped gas on a device: steps have the bytes of the host, and a step that does not search voids
+ * copies no field. */
 #define _POSIX_C_SOURCE 200809L
 #include "phase/gas_pocket.h"
 #include "scene.h"
@@ -49,7 +50,7 @@ static mps_sim *enclosing(const gas_scene *s)
     return sim;
 }
 
-/* In 3-D liquid that a program adds closes the way, in 2-D that beside it falls into it. */
+/* In 3-D liquid added by the program closes the gap, in 2-D adjacent liquid falls into it. */
 static void change(mps_sim *sim, const gas_scene *s, int step)
 {
     double x[4][3];
@@ -109,7 +110,7 @@ static void scenes_with_gas(void **state)
 
 /* ---- failures ---- */
 
-/* In a step with a pocket, and in one that looks for voids and finds none. */
+/* In a step with a pocket, and in one that searches voids and finds none. */
 static void failing_devices(void **state)
 {
     (void)state;
@@ -140,7 +141,8 @@ static void assert_in(const char *what, int64_t value, int64_t least, int64_t mo
                  (long long)most);
 }
 
-/* A step that waits asks for the speed of the surface; one that looks brings places of the liquid, and its number of slabs. */
+/* A step without a search reads the speed of the surface; a step with a search downloads positions
+ * of the liquid, and its number of slabs. */
 static void costs_without_a_pocket(void **state)
 {
     (void)state;
@@ -175,7 +177,8 @@ static void costs_without_a_pocket(void **state)
     }
 }
 
-/* Bytes of a particle: what the two calls on the host read; pressures, slopes and numbers that one of them writes. */
+/* Bytes per particle: data that the two passes on the host read; pressures, gradients and numbers
+ * that one of them writes. */
 static void costs_with_a_pocket(void **state)
 {
     static const int64_t down[2][2] = {{300, 400}, {400, 540}};

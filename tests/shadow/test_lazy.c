@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields stay on a device until the host asks for them. Where the values of the host are out of date, the shadow writes NaN over them: code that reads
- * a field without asking finds NaN. */
+/* Fields remain on a device until the host requests them. The shadow overwrites stale values of the
+ * host with NaN: code that reads a field without a request finds NaN. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <math.h>
@@ -12,7 +12,7 @@ static const char *const public_fields[] = {"position",       "velocity", "press
                                             "number_density", "density",  "mark"};
 enum { FIELDS = sizeof public_fields / sizeof public_fields[0] };
 
-/* Whether the host lacks a field; nothing is asked for. */
+/* Whether a field is stale on the host; it is not requested. */
 static bool lacks(mps_sim *sim, const char *name)
 {
     const mps__particles *s = &sim->world.particles;
@@ -21,7 +21,7 @@ static bool lacks(mps_sim *sim, const char *name)
     return sim->world.host.twins.list[MPS__CHANNELS + (f - s->field)].old[MPS__ON_HOST];
 }
 
-/* ---- what stays, and what comes ---- */
+/* ---- resident and downloaded fields ---- */
 
 static void fields_stay(void **state)
 {
@@ -224,7 +224,7 @@ static void more_particles(mps_sim *host, mps_sim *sim)
     }
 }
 
-/* Each question alone after steps, whatever a search left at the device; then steps go on. */
+/* Each request alone after steps, for any state after a search; then steps continue. */
 static void questions(void **state)
 {
     static void (*const ask[])(mps_sim *, mps_sim *) = {
@@ -251,7 +251,8 @@ static void questions(void **state)
     }
 }
 
-/* Parts of a step that run on the host find there what no step before has brought: the added mass, a body that carries the tank. */
+/* Parts of a step on the host that need fields which no previous step has downloaded: the added
+ * mass, a rigid body that carries the tank. */
 static void parts_on_the_host(void **state)
 {
     (void)state;
@@ -290,7 +291,8 @@ static int fail_if(mps_stage *s)
 static const mps_verb late_verbs[] = {{.hook = MPS_SHIFT, .run = fail_if}};
 static const mps_model_ops late = {TOY("test.late", 1, late_verbs)};
 
-/* Steps that fail for other reasons leave fields at the device as they were, in each step between two searches. */
+/* Steps that fail for other reasons leave fields on the device unchanged, in each step between two
+ * searches. */
 static void failed_steps(void **state)
 {
     static const char *const preset[] = {"imps", "mmps"};
@@ -319,7 +321,7 @@ static void failed_steps(void **state)
     }
 }
 
-/* All that needs fields says so, until the device answers again. Nothing is lost in between. */
+/* All calls that need fields return an error until the device works again. Nothing is lost. */
 static void silent_between_steps(void **state)
 {
     mps_sim *host = unwatched("imps", 2), *sim = unwatched("imps", 2);
@@ -356,8 +358,9 @@ static void silent_between_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A device dies at some launch of a step: what it had alone is gone, and each call that needs it says so until a checkpoint or a snapshot brings a state. `way`:
- * which of them; 2: the host had all, so nothing is lost. */
+/* A device fails permanently at a launch of a step: fields valid only on the device are lost, and
+ * each call that needs them returns an error until a checkpoint or a snapshot restores a state.
+ * `way`: which of them; 2: all fields are valid on the host, so nothing is lost. */
 static void die(mps_sim *host, mps_sim *sim, shadow *s, int way, int64_t launch)
 {
     mps_lease lease = {.struct_size = sizeof lease};

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Lists of neighbours at two places: what the host does with them between two steps, and what a failed copy leaves of them. */
+/* Neighbour lists in two memory spaces: use by the host between two steps, and their state after a
+ * failed copy. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <mps/couple.h>
 
-/* Rows of the host are made at the places after a step, those of the device are older by then. */
+/* Rows of the host are built at the positions after a step, those of the device are older then. */
 static void get_rows(mps_sim *sim)
 {
     mps_stencil near;
@@ -33,7 +34,8 @@ static void rows_of_the_host_between_steps(void **state)
     }
 }
 
-/* Whichever copy fails, and whatever it leaves: the next step has the candidates of the search before, and the host their rows. */
+/* If any copy fails, with any result: the next step has the candidates of the previous search, and
+ * the host their rows. */
 static void copies_that_fail(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random scenes on the host and on a device with memory of its own: each public function that changes a simulation, each model, solver and
- * kind of body has the same status, text and bytes on both. MPS_TEST_SCENES in the environment: so many scenes, instead of a few;
- * MPS_TEST_SEED: the first of them. */
+/* Random scenes on the host and on a device with separate memory: each public function that changes
+ * a simulation, each model, solver and kind of body has the same status, text and bytes on both.
+ * MPS_TEST_SCENES in the environment: number of scenes; MPS_TEST_SEED: the first of them. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include <math.h>
@@ -208,7 +208,7 @@ static mps_status set_kernel(dice *d, mps_sim *sim)
     return mps_kernel_use(sim, &k);
 }
 
-/* Of the host alone: threads of the other one would wait in memory that the shadow closes. */
+/* For the host only: threads of the other one would wait in memory that the shadow protects. */
 static mps_status set_threads(dice *d, mps_sim *sim)
 {
     const bool host = !sim->world.host.twins.device.ops.name;
@@ -520,7 +520,7 @@ static void play(int64_t number)
     for (int k = 0; k < 2; k++) /* before the first step only */
         if (number % 3 == k) act_both(&d, side, k ? KERNEL_USE : CENTRE_SET);
     for (int k = 0; k < ACTIONS_OF_SCENE; k++) {
-        /* a body or a load, two models, and three of all in turn */
+        /* a rigid body or a load, two models, and three of all in turn */
         const int which = k == 0  ? (int)(number / 4 % 2)
                           : k < 3 ? MODEL_USE
                                   : (int)((number * 3 + k) % ACTIONS);

@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What public functions that set something copy between the host and a device: what they change,
- * and no other field. A coupled run, which sets something before each step, copies what the same
- * run without setters copies. */
+/* Copies of setters between host and device: only the fields that they change. A coupled run, with
+ * a setter before each step, copies as much as the same run without setters. */
 #include "engine_twin.h"
 #include "setter_calls.h"
 #include <dirent.h>
@@ -69,7 +68,7 @@ static void every_function_is_listed(void **state)
     int functions = OTHERS;
     for (int k = 0; k < SETTERS; k++)
         functions += k == 0 || strcmp(setters[k].name, setters[k - 1].name) != 0;
-    assert_int_equal(found, functions); /* none is listed that is not there */
+    assert_int_equal(found, functions); /* no listed function is missing in the headers */
 }
 
 /* ---- what a call copies ---------------------------------------------------------------------- */
@@ -88,7 +87,8 @@ static bool is_invalid(mps_sim *sim, int32_t field)
     return twin->bytes > 0 && twin->old[MPS__ON_DEVICE];
 }
 
-/* After a call fields are invalid on the device that it has written, and those that were before. */
+/* After a call the written fields are stale on the device, in addition to those that were
+ * before. */
 static void check_fields(mps_sim *sim, const setter *r, const bool *before)
 {
     static const struct {
@@ -121,8 +121,8 @@ static traffic measure(mps_sim *sim, const shadow *s, const setter *r, bool step
     return steps ? (traffic){s->bytes_up - before.up, s->bytes_down - before.down} : called;
 }
 
-/* A tank that is half full and rests, with a field of the user. `closed`: while loops run on a
- * shadow the handle's memory is; not with threads of its own, which look there for work. */
+/* A half-full tank at rest, with a field of the user. `closed`: protect the memory of the handle
+ * while loops run on a shadow; not with threads of the handle, which poll it for work. */
 static mps_sim *new_tank(int32_t dim, bool closed)
 {
     mps_sim *sim = new_sim(dim, dim == 2 ? 0.03 : 0.1);
@@ -194,7 +194,7 @@ static void setters_copy_what_they_change(void **state)
     }
 }
 
-/* Before the first step all values are on the host: a call copies nothing at all. */
+/* Before the first step all values are on the host: a call copies nothing. */
 static void before_the_first_step(void **state)
 {
     (void)state;
@@ -288,8 +288,8 @@ static void begin_by_body(mps_sim *sim)
     ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_FORCE));
 }
 
-/* `alike`: without setters the steps solve the same equations. A body that is set anew forgets the
- * load that it has not felt yet. */
+/* `alike`: without setters the steps solve the same equations. A rigid body that is set again
+ * discards its delayed load. */
 typedef struct coupling {
     const char *name;
     void (*begin)(mps_sim *sim), (*each)(mps_sim *sim);
@@ -311,7 +311,7 @@ static mps_sim *coupled(int32_t dim, const coupling *c, shadow *s)
     return sim;
 }
 
-/* Fields that are valid on the device; -1: all are copied there again. */
+/* Fields that are valid on the device; -1: all are uploaded again. */
 static int64_t count_valid(mps_sim *sim)
 {
     const mps__twins *t = &sim->world.host.twins;

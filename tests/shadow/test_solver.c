@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Conjugate gradients of a device have the bytes of those on the host, whatever ends them; what an iteration costs. */
+/* Conjugate gradients on a device have the bytes of those on the host, for every reason to stop;
+ * costs of an iteration. */
 #define _POSIX_C_SOURCE 200809L
 #include "scene.h"
 #include "solutions.h"
@@ -18,7 +19,7 @@ static void solutions(void **state)
 
 /* ---- grids ---- */
 
-/* Some particles lie away from all others, in cells without neighbours, which have no coarser one. */
+/* Some particles are isolated, in cells without neighbours, which have no coarser cell. */
 static void scattered(kit_system *s)
 {
     for (int64_t i = 0; i < s->problem.n; i += 53)
@@ -41,7 +42,8 @@ static void shuffled(kit_system *s)
         }
 }
 
-/* Several grids of one density and two, with and without cells that stand alone: whatever the set-up makes of places, both sides make the same. */
+/* Several grids of one density and two, with and without isolated cells: host and device have the
+ * same setup for all positions. */
 static void grids(void **state)
 {
     static const kit_lattice lattices[] = {
@@ -82,11 +84,13 @@ static void grids(void **state)
 
 /* ---- what an iteration costs ---- */
 
-/* Of eight iterations: those behind them, which find the correction and its residual where the run has stopped. */
+/* Of eight iterations: those behind them, which find the correction and its residual where the run
+ * has stopped. */
 enum { BEHIND = 4 };
 
-/* Launches of one iteration, what waits for eight of them, and all waits of a solution with eight: for the pressures too, and before the set-up of
- * auxgrid, and in it: 2 unless its grid lies elsewhere than before, and one for each other grid. */
+/* Launches of one iteration, waits per eight iterations, and all waits of a solution with eight:
+ * also for the pressures, before the setup of auxgrid, and in it: 2 unless its grid has moved, and
+ * one for each other grid. */
 typedef struct cost {
     const char *preconditioner;
     kit_lattice lattice;

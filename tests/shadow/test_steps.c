@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps on a device with memory of its own give the bytes of the host: nothing reads what it does not declare, and each part of a step reads
- * the place that has the newest values. */
+/* Steps on a device with separate memory give the bytes of the host: no code reads undeclared
+ * arrays, and each part of a step reads the memory space with the current values. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 #include "model_fixture.h"
@@ -18,7 +18,8 @@ static void write_marks(mps_sim *sim)
     ASSERT_OK(sim, mps_lease_end(sim, &mark));
 }
 
-/* Failures: in a hook, of the solver by a velocity that is not finite, after particles have moved. */
+/* Failures: in a hook, of the solver by a velocity that is not finite, after particles have
+ * moved. */
 static int fail_here(mps_stage *s)
 {
     return mps_stage_fail(s, "as the test wants it");
@@ -63,7 +64,7 @@ static failure failed_step(const mps_model_ops *ops, mps_sim *sim)
     return f;
 }
 
-/* Steps with all that may stand between them. */
+/* Steps with all kinds of calls between them. */
 static void run(mps_sim *sim, const char *name, failure failed[FAILURES])
 {
     char path[PATH];
@@ -122,7 +123,7 @@ static void other_scenes(void **state)
     }
 }
 
-/* A particle that comes to a wall from behind: the step before has told of it, once. */
+/* A particle that reaches a wall from behind: the previous step has logged it, once. */
 static mps_sim *spilling(int32_t dim)
 {
     const double dp = dim == 2 ? 0.05 : 0.1, x[3] = {-7 * dp, 0.35, 0.2}, u[3] = {40 * dp, 0, 0};
@@ -158,7 +159,7 @@ static void liquid_behind_a_wall(void **state)
     }
 }
 
-/* Two drops in the air: bodies that nothing holds, which come to the host to be counted. */
+/* Two droplets in air: free bodies, which are downloaded to be counted. */
 static mps_sim *drops(int32_t dim)
 {
     const double dp = dim == 2 ? 0.02 : 0.04, wide = (dim == 2 ? 5 : 3) * dp;
@@ -199,7 +200,7 @@ static void drops_are_free(void **state)
     }
 }
 
-/* A tank without a surface: nothing gives the pressures a level. */
+/* A tank without a free surface: no pressure datum. */
 static mps_sim *closed(int32_t dim)
 {
     mps_sim *sim = new_sim(dim, dim == 2 ? 0.05 : 0.1);
@@ -232,7 +233,7 @@ static void same_loads(mps_sim *host, mps_sim *sim)
     assert_memory_equal(&a, &b, sizeof a);
 }
 
-/* Equations that a device has made and the host solves. */
+/* Equations assembled on a device and solved on the host. */
 static void other_solutions(void **state)
 {
     (void)state;
@@ -259,7 +260,7 @@ static void other_solutions(void **state)
     }
 }
 
-/* Each model of the library beside those of a preset; some fail, on the host too. */
+/* Each model of the library together with those of a preset; some fail, on the host too. */
 static void all_models(void **state)
 {
     mps_model_info m;
@@ -393,7 +394,7 @@ static void an_undeclared_use_is_found(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step for which the device has no room fails and changes nothing; the next has room. */
+/* A step without enough device memory fails and changes nothing; the next has enough. */
 static void without_room(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);

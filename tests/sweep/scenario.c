@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Random sloshing tanks: the ranges are those a user may ask for, and some beyond what anybody builds. */
+/* Random sloshing tanks: ranges of practical cases, and some beyond. */
 #include "scenario.h"
 #include <math.h>
 
 static const double PI = 3.14159265358979323846, GRAVITY = 9.81;
 
-/* ---- numbers ------------------------------------------------------------------------------------------------------- */
+/* ---- numbers --------------------------------------------------------------------------------- */
 
 /* splitmix64 of Steele, Lea & Flood 2014. */
 static uint64_t next_bits(uint64_t *state)
@@ -36,7 +36,7 @@ static int32_t whole(uint64_t *state, int32_t count)
     return (int32_t)uniform(state, 0, count);
 }
 
-/* ---- tank ---------------------------------------------------------------------------------------------------------- */
+/* ---- tank ------------------------------------------------------------------------------------ */
 
 /* A side in 0.2..2 m, at most four times as long or short as the first. */
 static double draw_side(uint64_t *state, double first)
@@ -89,7 +89,8 @@ static void draw_gravity(scenario *s, uint64_t *state)
     s->gravity[2] = s->dim == 3 ? GRAVITY * sin(tilt) * sin(round) : 0;
 }
 
-/* A vertical baffle of one to five columns, on the floor, hanging or in between, from wall to wall across z. */
+/* A vertical baffle of one to five columns, on the floor, hanging or in between, from wall to wall
+ * across z. */
 static void draw_baffle(scenario *s, uint64_t *state)
 {
     double bottom = uniform(state, 0, 0.6) * s->size[1],
@@ -125,7 +126,7 @@ static void draw_obstacle(scenario *s, uint64_t *state)
     if (s->obstacle == OBSTACLE_PLATE) draw_plate(s, state);
 }
 
-/* ---- motion -------------------------------------------------------------------------------------------------------- */
+/* ---- motion ---------------------------------------------------------------------------------- */
 
 /* First natural frequency of the tank along x without obstacles [rad/s]. */
 static double natural(const scenario *s)
@@ -160,7 +161,7 @@ static void draw_motion(scenario *s, uint64_t *state)
         if (chosen >> k & 1) draw_harmonics(s, state, s->dim == 3 ? k : plane[k]);
 }
 
-/* ---- building ------------------------------------------------------------------------------------------------------ */
+/* ---- building -------------------------------------------------------------------------------- */
 
 static mps_status build_obstacle(const scenario *s, mps_sim *sim, const double *built)
 {

@@ -8,7 +8,7 @@
 
 enum { SCENARIO_HARMONICS = 3 * MPS_DOF_COUNT };
 
-/* What stands in the tank. */
+/* Obstacles in the tank. */
 enum { OBSTACLE_NONE, OBSTACLE_BAFFLE, OBSTACLE_PLATE };
 
 typedef struct scenario {
@@ -23,7 +23,8 @@ typedef struct scenario {
 
 /* Draw everything. @param dim 2 or 3; 0: drawn too */
 void scenario_draw(scenario *s, uint64_t seed, int32_t dim);
-/* Build it. @param sim out: the handle, NULL if not even that could be made @param built [3] out: the tank [m] */
+/* Build it. @param sim out: the handle, NULL if not even that could be made @param built [3] out:
+ * the tank [m] */
 mps_status scenario_build(const scenario *s, const char *model, mps_sim **sim, double *built);
 /* Print it as key=value without an end of line. */
 void scenario_print(const scenario *s, FILE *out);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* One run of the sweep: draw a tank from a seed, step it to the end, say in one line whether all went well.
+/* One run of the sweep: draw a tank from a seed, step it to the end, print the result in one line.
  * scripts/sweep runs many of them. Exit code 0: ok, 1: something is wrong, 2: bad command line. */
 #include "../tags.h"
 #include <mps/picture.h>
@@ -38,7 +38,7 @@ typedef struct findings {
     const char *wrong; /* NULL: nothing */
     double built[3];
     int64_t fluid, missing, bad,
-        not_converged; /* particles at the start, gone without notice, not finite; steps */
+        not_converged; /* initial particles, lost without notice, non-finite; steps */
     double outside;    /* furthest of a fluid particle beyond a wall [dp], < 0: inside */
     double tank_speed, max_speed, min_dt; /* [m/s], [s] */
     double volume_error, volume_worst;    /* at the last check, largest */
@@ -53,7 +53,7 @@ static void ask_stop(int number)
     stop_asked = 1;
 }
 
-/* ---- checks -------------------------------------------------------------------------------------------------------- */
+/* ---- checks ---------------------------------------------------------------------------------- */
 
 /* Columns of the tank's axes in the lab and its origin; notes how fast its corners are. */
 static void tank_frame(mps_sim *sim, findings *f, int32_t dim, double origin[3], double axes[3][3])
@@ -73,7 +73,8 @@ static void tank_frame(mps_sim *sim, findings *f, int32_t dim, double origin[3],
     }
 }
 
-/* How far a place of the lab is beyond the nearest wall [m]; the top of an open tank is none. */
+/* Distance of a position in the lab beyond the nearest wall [m]; the top of an open tank is no
+ * wall. */
 static double beyond(const options *o, const findings *f, const double *x, const double *origin,
                      double axes[3][3])
 {
@@ -132,7 +133,7 @@ static void check(const options *o, mps_sim *sim, findings *f)
     if (fabs(energy.volume_error) > fabs(f->volume_worst)) f->volume_worst = energy.volume_error;
 }
 
-/* The gravest first; what comes out of an open tank is no fault. */
+/* The most severe first; particles that leave an open tank are no error. */
 static const char *verdict(const options *o, const findings *f)
 {
     double fall = 0;
@@ -148,7 +149,7 @@ static const char *verdict(const options *o, const findings *f)
     return NULL;
 }
 
-/* ---- models -------------------------------------------------------------------------------------------------------- */
+/* ---- models ---------------------------------------------------------------------------------- */
 
 /* "slot.key=number" */
 static mps_status set_model(mps_sim *sim, const char *text)
@@ -178,7 +179,7 @@ static mps_status change_models(const options *o, mps_sim *sim)
     return status;
 }
 
-/* ---- the run ------------------------------------------------------------------------------------------------------- */
+/* ---- the run --------------------------------------------------------------------------------- */
 
 static void take_picture(const options *o, mps_sim *sim, int number)
 {
@@ -234,7 +235,7 @@ static void report(const options *o, const findings *f, const char *error)
     printf("\n");
 }
 
-/* ---- command line -------------------------------------------------------------------------------------------------- */
+/* ---- command line ---------------------------------------------------------------------------- */
 
 static int usage(const char *what)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Edit a checkpoint in memory and repair its checksums, so that a reader meets wrong numbers and not damage. Needs "archive.h". */
+/* Edit a checkpoint in memory and recompute its checksums, so that a reader gets wrong numbers
+ * instead of a damaged file. Needs "archive.h". */
 #ifndef CHECKPOINT_EDITOR_H
 #define CHECKPOINT_EDITOR_H
 
@@ -17,7 +18,7 @@ typedef struct editor_part {
     size_t used, room; /* bytes of the elements, without and with the zeros behind them */
 } editor_part;
 
-/* The part at an offset; 0 if there is none that lies within `size`. */
+/* The section at an offset; 0 if none is within `size`. */
 static inline int editor_part_at(unsigned char *file, size_t size, size_t at, editor_part *p)
 {
     if (at > size || size - at < EDITOR_PART) return 0;
@@ -32,7 +33,7 @@ static inline int editor_part_at(unsigned char *file, size_t size, size_t at, ed
     return p->room <= left && memchr(p->at, 0, MPS__PART_TITLE) != NULL;
 }
 
-/* The part of a name; 0 if it is not there. */
+/* The section with a name; 0 if it does not exist. */
 static inline int editor_find(unsigned char *file, size_t size, const char *name, editor_part *p)
 {
     for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, p); at += EDITOR_PART + p->room)
@@ -40,7 +41,7 @@ static inline int editor_find(unsigned char *file, size_t size, const char *name
     return 0;
 }
 
-/* Put `bytes` bytes at an offset into the elements of a part; 0 if it is not there. */
+/* Write `bytes` bytes at an offset into the elements of a section; 0 if it does not exist. */
 static inline int editor_put(unsigned char *file, size_t size, const char *name, size_t offset,
                              const void *value, size_t bytes)
 {

@@ -124,7 +124,7 @@ static inline mps_sim *dam_3d(void)
     return sim;
 }
 
-/* Cells that are not square, of another spacing than was asked for; a level between two rows. */
+/* Non-square cells, with another spacing than requested; a level between two rows. */
 static inline mps_sim *stretched(void)
 {
     const double lo[2] = {0, 0}, hi[2] = {0.59, 0.28}, from[2] = {0.2, 0}, to[2] = {0.26, 0.15};
@@ -195,7 +195,7 @@ static inline void same_budgets(mps_sim *a, mps_sim *b)
         ASSERT_OK(sim, mps_momentum_get(sim, &m[k]));
         ASSERT_OK(sim, mps_sim_time(sim, &t[k], &steps[k]));
     }
-    /* without struct_size and the bytes behind it, which hold anything */
+    /* without struct_size and the padding after it */
     assert_memory_equal(&e[0].kinetic, &e[1].kinetic, sizeof e[0] - offsetof(mps_energy, kinetic));
     assert_memory_equal(&m[0].total, &m[1].total, sizeof m[0] - offsetof(mps_momentum, total));
     assert_memory_equal(&t[0], &t[1], sizeof t[0]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Clouds of particles for tests of neighbours and operators. Coordinates are multiples of dp / 2^16, dp a power of two:
- * shifts by whole numbers and quarter turns are exact, so that tests may ask for equal bytes. */
+/* Sets of particles for tests of neighbours and operators. Coordinates are multiples of dp / 2^16,
+ * dp a power of two: translations by integers and rotations by 90 degrees are exact, so that tests
+ * can require equal bytes. */
 #ifndef TESTS_CLOUD_H
 #define TESTS_CLOUD_H
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Every public function that takes a simulation, as a call with sensible arguments. A new function
- * gets a line in each half of this file: test_lock.c compares the table with the headers. */
+/* Every public function with a simulation argument, as a call with valid arguments. Add a line for
+ * a new function to each half of this file: test_lock.c compares the table with the headers. */
 #ifndef LOCK_CALLS_H
 #define LOCK_CALLS_H
 

@@ -8,7 +8,7 @@
 #include <mps/list.h>
 #include <mps/model.h>
 
-/* Fill in what a table needs beside its name and verbs. */
+/* Set the required entries of a table except name and verbs. */
 #define TOY(model_name, count, table)                                                 \
     .struct_size = sizeof(mps_model_ops), .api = MPS_MODEL_API, .name = (model_name), \
     .help = "a model of a test", .verb_count = (count), .verbs = (table)

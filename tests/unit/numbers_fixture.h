@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of mps/numbers.h against those of the C library in extended precision, at random arguments. */
+/* Functions of mps/numbers.h against those of the C library in extended precision, at random
+ * arguments. */
 #ifndef MPS_TEST_NUMBERS_H
 #define MPS_TEST_NUMBERS_H
 
@@ -46,7 +47,8 @@ static inline double random_of(span s)
     return s.lo < s.hi ? random_in(s.lo, s.hi) : random_double();
 }
 
-/* Error of `got` in units in the last place of a double of the size of `right`; 0 for the same infinity. */
+/* Error of `got` in units in the last place of a double of the size of `right`; 0 for the same
+ * infinity. */
 static inline double ulps(double got, long double right)
 {
     int exponent;
@@ -86,7 +88,8 @@ static const one_argument functions_of_one[] = {
     {"cosh", mps_cosh, coshl, {{-710, 710}, {-2, 2}, {20, 45}, {0, 0}}, 0.68}};
 enum { ONE = sizeof functions_of_one / sizeof functions_of_one[0] };
 
-/* Bases and exponents: of any size; the exponents of a spray of results; near 1; |y log x| up to 745 with large y. */
+/* Bases and exponents: of any size; the exponents of a spray of results; near 1; |y log x| up to
+ * 745 with large y. */
 static const span bases[6] = {{0, 0},           {0, 10},     {0.999, 1.001},
                               {0.7071, 1.4143}, {1e-6, 1e3}, {0, 1e-308}},
                   exponents[6] = {{0, 0},        {-300, 300}, {-7e5, 7e5},
@@ -109,7 +112,7 @@ static inline void raise_worst(worst *w, long double right, double error, double
     w->at[1] = y;
 }
 
-/* An error below 0.49 in so many arguments would tell of a reference that is not one. */
+/* An error below 0.49 for this number of arguments would indicate a wrong reference. */
 static inline void check_worst(const char *name, const worst *w, double bound)
 {
     print_message("%-6s %.4f ulp; %.4f of results below 2^-1022; at %a %a\n", name, w->normal,

@@ -29,7 +29,7 @@ static inline mps_particle_block block_of(int64_t count, const double *x)
     return b;
 }
 
-/* A field by id, for all ids below 1000; NaN where there is no particle. */
+/* A field by id, for all ids below 1000; NaN without a particle. */
 static inline void by_id(mps_sim *sim, const char *field, int component, double out[1000])
 {
     const int64_t *ids = NULL;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Models one at a time: a simulation without any, free clouds of fluid, and a model `spy` that keeps what
- * the verbs before it left. */
+/* Single models: a simulation without models, free fluid particles, and a model `spy` that copies
+ * the results of the previous verbs. */
 #ifndef PHASE_FIXTURE_H
 #define PHASE_FIXTURE_H
 
@@ -23,7 +23,7 @@ static struct {
     double given_rhs, given_deviation;
 } spy;
 
-/* As if every particle had `given_deviation` less volume than its share. */
+/* As if the volume of every particle were smaller by `given_deviation`. */
 static inline int spy_lay_number(mps_stage *s)
 {
     double *number_density = s->data[0];

@@ -8,7 +8,8 @@
 
 static const double dp = 0.05;
 
-/* A plate of `columns` across x from x = 0.5 on, from the floor up to `top`, right across the tank. */
+/* A plate of `columns` across x from x = 0.5 on, from the floor up to `top`, right across the
+ * tank. */
 static inline void add_plate(mps_sim *sim, int columns, double bottom, double top)
 {
     const double lo[3] = {0.5, bottom, 0}, hi[3] = {0.5 + (columns - 1) * dp, top, 0.3};

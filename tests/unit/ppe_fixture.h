@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Small clouds with all that an assembly of the pressure equation looks at. */
+/* Small sets of particles with all inputs of an assembly of the pressure equation. */
 #ifndef PPE_FIXTURE_H
 #define PPE_FIXTURE_H
 
@@ -12,7 +12,7 @@
 enum { MOST = 512 };
 static const double re_near = 2.1 * CLOUD_DP, re_far = 3.1 * CLOUD_DP, rho0 = 1000, gravity = 9.81;
 
-/* Particles with all that an assembly looks at. */
+/* Particles with all inputs of an assembly. */
 typedef struct tank {
     cloud c;
     mps_neighbours *list;

@@ -25,11 +25,12 @@ static struct {
                         4: a shift through the walls */
     int64_t victim;  /* id of the spoilt particle */
     double dt_limit; /* INFINITY: none */
-    int32_t region;  /* what classify leaves at the victim, MPS_REGION_INNER: nothing */
+    int32_t region;  /* region that classify writes at the selected particle, MPS_REGION_INNER:
+                        none */
     int created, destroyed, calls[VERBS];
 } test;
 
-/* Each verb changes all that it may, so that a failure leaves wrong values. */
+/* Each verb changes all writable arrays, so that a failure leaves wrong values. */
 static const mps_use region_uses[] = {{"region", MPS_USE_CHANGE}};
 static const mps_use push_uses[] = {{"acceleration", MPS_USE_CHANGE}};
 static const mps_use level_uses[] = {{"pressure", MPS_USE_CHANGE}};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Order of particles and candidates by the loops of a device, which run wherever the includer has them run, beside the host's. */
+/* Order of particles and candidates by the loops of a device, which run as defined by the including
+ * file, compared with those of the host. */
 #ifndef TESTS_SEARCH_FIXTURE_H
 #define TESTS_SEARCH_FIXTURE_H
 
@@ -59,7 +60,7 @@ static inline void tank_free(tank *t)
     free(t->id);
 }
 
-/* All particles to the places of an order. */
+/* Permute all particles. */
 static inline void tank_sort(tank *t, const int32_t *order)
 {
     const int32_t dim = t->c.dim;
@@ -76,7 +77,7 @@ static inline void tank_sort(tank *t, const int32_t *order)
     t->kind = kind;
 }
 
-/* Room for arrays that loops of a device work on. */
+/* Allocate arrays for loops of a device. */
 typedef struct search_room {
     mps__order_arrays order;
     mps__search_arrays search;
@@ -115,7 +116,7 @@ static inline void search_room_free(search_room *r)
     free(r->search.rim);
 }
 
-/* The host's lists and those of the loops: each row alike, one behind the other in the second. */
+/* Lists of the host and of the loops: equal rows, contiguous in the second. */
 static inline void same_rows(const mps_neighbours *l, const mps__search_arrays *there)
 {
     int64_t begin = 0;

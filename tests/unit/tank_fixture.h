@@ -78,7 +78,7 @@ static inline void fill_air(mps_sim *sim, const double lo[3], const double hi[3]
     ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
 }
 
-/* Surge with an acceleration that comes on smoothly to 4 g, so that nothing jumps. */
+/* Surge with an acceleration that increases smoothly to 4 g, without jumps. */
 static inline int pull_away(void *user, double t, mps_motion_state *state)
 {
     (void)user;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Functions of angles against those of the C library in extended precision, at zeros, infinities and NaN, and their bytes. */
+/* Functions of angles against those of the C library in extended precision, at zeros, infinities
+ * and NaN, and their bytes. */
 #include "angles.h"
 #include "numbers_fixture.h"
 

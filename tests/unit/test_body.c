@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A rigid body that carries the tank. A full box moves with its liquid as one: its mass is known. */
+/* A rigid body that carries the tank. A full box moves with its liquid as a rigid body: its mass is
+ * known. */
 #include "tank_fixture.h"
 #include <stdio.h>
 
@@ -129,8 +130,9 @@ static void forces(void **state)
     }
 }
 
-/* A full box that hangs 1 m below its axis: w2 = (m + M) g l/(A + I + M l2), A about the axis from the report, against theory: the liquid
- * keeps its place but for its turning moment, rho (I_polar - torsion constant) = 9.29 kg m2/m at fine spacing. */
+/* A full box that hangs 1 m below its axis: w2 = (m + M) g l/(A + I + M l2), A about the axis from
+ * the report, against theory: the liquid does not rotate, except for its moment, rho (I_polar -
+ * torsion constant) = 9.29 kg m2/m at fine spacing. */
 static void pendulum(void **state)
 {
     const double centre[3] = {0.4, 1.25, 0}, mass = 50, dt = 4e-3, start = 0.02;
@@ -140,7 +142,7 @@ static void pendulum(void **state)
     b.centre_of_mass[0] = 0.4;
     b.centre_of_mass[1] = 0.25;
     b.inertia[8] = 3;
-    /* a spring lets it go at an angle: equilibrium at `start` with g */
+    /* initial angle of the spring: equilibrium at `start` with g */
     const double moment = (mass + FULL) * 9.81;
     b.stiffness[35] = moment;
     b.equilibrium[MPS_ROTATE_Z] = start;
@@ -162,7 +164,8 @@ static void pendulum(void **state)
 
 /* ---- in 3-D ---- */
 
-/* Turns about skew axes, without loads: Euler's equations, by Runge and Kutta, axes of the body. */
+/* Rotation about skew axes, without loads: Euler's equations by a Runge-Kutta method, axes of the
+ * body. */
 static void spin(const double inertia[3], double w[3], double R[9], double dt)
 {
     double k[4][12] = {{0}};
@@ -217,7 +220,7 @@ static void top(void **state)
     assert_int_equal(mps_motion_pose_init(&pose, sizeof pose), MPS_OK);
     ASSERT_OK(sim, mps_motion_state_get(sim, &now));
     assert_int_equal(mps_motion_pose_from_state(&now, &pose), MPS_OK);
-    /* it has turned by half a radian; the liquid, 160 kg, hardly counts */
+    /* rotation by half a radian; the effect of the liquid, 160 kg, is small */
     for (int d = 0; d < 9; d++) ASSERT_NEAR(pose.rotation[d], R[d], 5e-3);
     assert_true(fabs(R[1]) > 0.1 && fabs(R[5]) > 0.1);
     const mps_body_report r = report_of(sim);
@@ -290,7 +293,7 @@ static void goes_on(void **state)
     remove(path);
 }
 
-/* A step that fails leaves the body as it was; then it stops where it is. */
+/* A failed step leaves the body unchanged; then it is stopped at its pose. */
 static void fails_and_ends(void **state)
 {
     push p = {.load = {30, 0, 0, 0, 0, 0}};
@@ -423,7 +426,7 @@ static void arguments(void **state)
     ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_READ, &x));
     ASSERT_STATUS(sim, mps_body_set(sim, &good), MPS_E_BUSY);
     ASSERT_OK(sim, mps_lease_end(sim, &x));
-    /* the motion is as before */
+    /* the motion is unchanged */
     mps_motion_state now;
     assert_int_equal(mps_motion_state_init(&now, sizeof now), MPS_OK);
     ASSERT_OK(sim, mps_body_set(sim, &good));

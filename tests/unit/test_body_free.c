@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* body.free: drops fall with g, and a tank that they do not touch has no effect on them; liquid that a wall holds is as without it. */
+/* body.free: droplets fall with g, unaffected by a tank that they do not touch; liquid in contact
+ * with a wall is as without the model. */
 #include "phase_fixture.h"
 
-/* A disordered drop of n rows, far from the walls of a tank of 80 x 80 (x 30) spacings. */
+/* A disordered droplet of n rows, far from the walls of a tank of 80 x 80 (x 30) spacings. */
 static mps_sim *drop(int dim, int n, const char *left_out)
 {
     const double dp = CLOUD_DP;
@@ -70,7 +71,8 @@ static void is_left_behind(void **state)
     }
 }
 
-/* Too large to be followed, but held by walls, or neither: all positions of a pool and of a film are those without the model, to the bit. */
+/* Too large, or in contact with walls, or both: all positions of a pool and of a film are bitwise
+ * those without the model. */
 static void pools_are_held(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Dry friction of a rigid body that carries the tank. A full box moves with its liquid as one:
- * turning points and rests are known. */
+/* Dry friction of a rigid body that carries the tank. A full box moves with its liquid as a rigid
+ * body: turning points and sticking are known. */
 #include "tank_fixture.h"
 #include <stdbool.h>
 #include <stdio.h>
@@ -55,15 +55,15 @@ static void law(const mps_body_report *r, int32_t dof, double most)
         assert_true(r->friction[dof] == (r->velocity[dof] > 0 ? -most : most));
 }
 
-/* Follows a body from turning point to turning point. A turning point may last a step; two steps
- * are a rest. */
+/* Follows a rigid body from turning point to turning point. A turning point may last one step; two
+ * steps are sticking. */
 typedef struct follower {
     double last, way, before; /* pose, path, latest velocity that was not 0 */
     int turns, still;
-    double turned[2]; /* places of the last two turning points */
+    double turned[2]; /* positions of the last two turning points */
 } follower;
 
-/* @return whether it has turned, or come to rest */
+/* @return whether it has reversed or stuck */
 static bool follow(follower *f, const mps_body_report *r, int32_t dof)
 {
     const double v = r->velocity[dof];
@@ -126,7 +126,7 @@ static void pendulum(void **state)
     const int32_t turn = MPS_ROTATE_Z;
     follower f = {.last = start, .turned = {0, start}};
     (void)state;
-    b.mass = heavy; /* the liquid loses little beside it */
+    b.mass = heavy; /* the loss of the liquid is small in comparison */
     b.centre_of_mass[0] = 0.4;
     b.centre_of_mass[1] = 0.25;
     b.inertia[8] = 3;
@@ -192,8 +192,9 @@ static void sticks(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Waves in a half-filled tank hold it and let it go; both degrees obey the law in each step,
- * with springs and dampers beside them. A snapshot and a checkpoint go on with the same bytes. */
+/* Waves in a half-filled tank make it stick and slip; both degrees of freedom obey the law in each
+ * step, with springs and dampers in addition. A snapshot and a checkpoint continue with the same
+ * bytes. */
 static void waves(void **state)
 {
     static const char path[] = "friction.checkpoint";
@@ -222,7 +223,7 @@ static void waves(void **state)
             law(&r, dof, most[i]);
             *(r.velocity[dof] == 0 ? &rests[i] : &moves[i]) += 1;
         }
-        ASSERT_NEAR(imbalance(&r), 0, 5e-3); /* turns: of second order */
+        ASSERT_NEAR(imbalance(&r), 0, 5e-3); /* rotations: second order */
         force = n % 200 < 100 ? 250 : 0;
     }
     fprintf(stderr, "%d %d %d %d\n", rests[0], rests[1], moves[0], moves[1]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The budgets of energy and momentum: what counts as work of the walls, what comes from outside,
- * and that both close. */
+/* The budgets of energy and momentum: work of the walls, additions from outside, closure of
+ * both. */
 #include "budget.h"
 #include "probe_fixture.h"
 #include "sim.h"
@@ -117,8 +117,8 @@ static void force_models_are_no_walls(void **state)
     const mps_energy e = energy_of(sim);
     const double t = sim->world.state.t,
                  work = 0.5 * e.mass * (pow(speed + pull * t, 2) - speed * speed);
-    /* m v a t, what was booked here, is of the size of `work`; the solver's tolerance leaves 1e-6
-     * of it */
+    /* the budget entry m v a t has the size of `work`; the tolerance of the solver gives 1e-6 of
+     * it */
     assert_true(work > 0.01);
     ASSERT_NEAR(e.wall_work_momentum, 0, 1e-6 * work);
     ASSERT_NEAR(e.plugins, -work, 1e-6 * work);
@@ -128,8 +128,8 @@ static void force_models_are_no_walls(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A full tank jumps from rest to its speed: its walls give the liquid m V^2/2, and it moves as a
- * rigid body from then on. */
+/* A full tank jumps from rest to its speed: its walls do the work m V^2/2, and the liquid then
+ * moves as a rigid body. */
 static void impulsive_start(void **state)
 {
     (void)state;
@@ -181,7 +181,7 @@ static void start_with_the_tank(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Sums of the host are there at once. */
+/* Sums on the host are available immediately. */
 static void take_one(void *value, const double *sums)
 {
     *(double *)value = sums[0];
@@ -200,7 +200,7 @@ static void take_force(void *force, const double *sums)
     memcpy(force, sums, 3 * sizeof *sums);
 }
 
-/* Of a torque too: the turn of this step, and of the one before it. */
+/* Work of a torque too: the rotation of this step, and of the previous one. */
 static void work_of_a_turn(void **state)
 {
     (void)state;
@@ -232,7 +232,7 @@ static void work_of_a_turn(void **state)
     const double second = 0.3 * sin(6 * dt) - first,
                  rate = 0.5 * (sin(first) / dt + sin(second) / (2 * dt));
     ASSERT_NEAR(wall_work(w, &end, a, 2 * dt), 2 * impulse * rate, rounding * impulse);
-    /* pressures on walls work with the same turn */
+    /* work of wall pressures with the same rotation */
     double torque = 0, size = 0, force[3];
     for (int64_t i = 0; i < w->particles.n; i++) {
         const double *x = w->particles.x + 2 * i, *area = w->particles.area + 2 * i;
@@ -249,7 +249,7 @@ static void work_of_a_turn(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Force probes times the velocity of the tank give `wall_work_probes`. */
+/* Forces of probes times the velocity of the tank give `wall_work_probes`. */
 static void work_by_force_probes(void **state)
 {
     (void)state;
@@ -274,16 +274,16 @@ static void work_by_force_probes(void **state)
     }
     const mps_energy e = energy_of(sim);
     ASSERT_NEAR(e.wall_work_probes, work, 1e-9 * most);
-    /* the walls also stand for half cells of liquid */
+    /* the walls also represent half cells of liquid */
     assert_true(fabs(e.wall_work_probes - e.wall_work_momentum) > 1e-3 * most);
     ASSERT_NEAR(e.wall_work_probes, e.wall_work_momentum, 0.3 * most);
     mps_sim_destroy(sim);
 }
 
-/* ---- what comes from outside ---- */
+/* ---- additions from outside ---- */
 
-/* A sloshing tank in the middle of its run, so that what comes and goes has energies of both
- * kinds. */
+/* A sloshing tank in the middle of its run, so that added and removed particles have kinetic and
+ * potential energy. */
 static mps_sim *sloshing(mps_energy *start, mps_momentum *before)
 {
     mps_sim *sim = filled(2, 0.1);
@@ -296,7 +296,7 @@ static mps_sim *sloshing(mps_energy *start, mps_momentum *before)
     return sim;
 }
 
-/* What happened since `e` and `m` were taken went to `added`, all of it and nothing else. */
+/* All changes since `e` and `m` were measured are in `added`, and nothing else. */
 static void assert_added(mps_sim *sim, const mps_energy *e, const mps_momentum *m)
 {
     const mps_energy now = energy_of(sim);
@@ -396,7 +396,7 @@ static void added_between_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What leaves the domain takes with it what it has. */
+/* Particles that leave the domain remove their energy and momentum. */
 static void lost_particles(void **state)
 {
     (void)state;
@@ -448,8 +448,8 @@ static void stopped_by_a_plate(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What two particles lose that run into each other is lost in a collision: more than nothing, all of
- * their kinetic energy that is gone. */
+/* The energy loss of two colliding particles is that of `collision`: > 0, equal to the loss of
+ * kinetic energy. */
 static void collision_of_two(void **state)
 {
     (void)state;

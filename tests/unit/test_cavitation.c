@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* cavitation.vapour: a tank that leaves its liquid behind pulls at it no harder than the model allows; what pulls less keeps its bytes. */
+/* cavitation.vapour: the suction of a tank that accelerates away from its liquid is limited by the
+ * model; with less suction the bytes are unchanged. */
 #define _POSIX_C_SOURCE 200809L
 #include "tank_fixture.h"
 
 static const double LENGTH = 0.8;
 
-/* Half of the tank is liquid, the rest gas with `mmps`; walls may pull. `least` 0: without the model [Pa] */
+/* Half of the tank is liquid, the rest gas with `mmps`; walls may pull. `least` 0: without the
+ * model [Pa] */
 static mps_sim *build(const char *preset, int32_t dim, double least)
 {
     const double dp = 0.05, across = dim == 3 ? 0.3 : 0, lo[3] = {0, 0, 0},
@@ -72,7 +74,8 @@ static outcome run(const char *preset, int32_t dim, double least)
     return o;
 }
 
-/* In two steps running; a row may fall below for one. Where none comes near the least pressure, bytes are those without the model. */
+/* In two successive steps; a row may be below for one step. If no row comes near the least
+ * pressure, bytes are those without the model. */
 static void pulls_no_harder(void **state)
 {
     static const char *const presets[] = {"imps", "mmps"};

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints: what goes on from one is what did not stop, to the last bit. */
+/* Checkpoints: a resumed run is bitwise equal to an uninterrupted one. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 
 /* ---- scenes ---- */
 
-/* A gate between two depths, and a sensor in the liquid beside it. */
+/* A gate between two depths, and a sensor in the adjacent liquid. */
 static mps_sim *gate(void)
 {
     const double foot[2] = {0.4, 0}, edge[2] = {0, 0.4}, lo[2] = {0.4, 0}, hi[2] = {1, 0.2};
@@ -38,9 +38,10 @@ static void take_out(mps_sim *sim, const char *name)
     free(own);
 }
 
-/* ---- going on ---- */
+/* ---- resume ---- */
 
-/* From the start, between two searches, after some, and twice over: what follows is what would have been. Writing changes nothing. */
+/* From the start, between two searches, after some, and twice over: what follows is what would have
+ * been. Writing changes nothing. */
 static void goes_on(void **state)
 {
     static const int64_t at[] = {0, 1, 6, 22};
@@ -73,7 +74,7 @@ static void goes_on(void **state)
     }
 }
 
-/* Particles that come between a checkpoint and the next step, and those that are lost in it. */
+/* Particles added between a checkpoint and the next step, and particles lost in it. */
 static void particles_come_and_go(void **state)
 {
     char path[PATH];
@@ -100,7 +101,7 @@ static void particles_come_and_go(void **state)
     for (int k = 0; k < 2; k++) mps_sim_destroy(sim[k]);
 }
 
-/* A gate that was taken out hides nothing from a probe, also where the next search of neighbours is still to come. */
+/* A removed gate occludes nothing from a probe, also before the next neighbour search. */
 static void without_a_gate(void **state)
 {
     char path[PATH];
@@ -121,8 +122,8 @@ static void without_a_gate(void **state)
     mps_sim_destroy(b);
 }
 
-/* The liquid moved with the tank from the beginning, which then came to rest where it was; a first step so short that the next ones grow;
- * a drop that was lost, and two that collided. */
+/* The liquid moved with the tank initially, and the tank then stopped; a first step so short that
+ * the next ones grow; a lost droplet, and two that collided. */
 static void came_to_rest(void **state)
 {
     const double centre[2] = {0.3, 0.1}, drops[6] = {0.3, 99, 0.3, 0.5, 0.32, 0.5},

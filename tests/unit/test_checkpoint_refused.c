@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints that are refused: of another set-up, at a wrong time, damaged or forged files. */
+/* Refused checkpoints: another set-up, a wrong time, damaged or manipulated files. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_editor.h"
 #include "checkpoint_fixture.h"
@@ -134,7 +134,7 @@ static size_t read_file(const char *path, unsigned char *bytes, size_t room)
     return size;
 }
 
-/* A number of a file, and what is said when it is another. */
+/* A number of a file, and the error text if it is changed. */
 typedef struct forgery {
     const char *part;
     size_t offset; /* bytes into the elements */
@@ -317,7 +317,7 @@ static void forged_relations(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A checkpoint takes the place of a file, not of what only looks like one; and leaves nothing beside it. */
+/* A checkpoint replaces a regular file only, and leaves no other file. */
 static void odd_places(void **state)
 {
     char path[PATH], beside[PATH];
@@ -335,7 +335,7 @@ static void odd_places(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A bit turned anywhere, an end anywhere: always told, nothing taken. */
+/* A flipped bit or a truncation anywhere: always reported, nothing is read. */
 static void damaged_files(void **state)
 {
     static unsigned char bytes[1 << 20];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The crossing time: dp/u of the fastest piece of liquid. Spray does not count, a film of two rows does. */
+/* The crossing time: dp/u of the fastest coherent liquid. Spray is excluded, a film of two rows is
+ * included. */
 #include "sim.h"
 #include "tank_fixture.h"
 #include <stdlib.h>
@@ -8,7 +9,7 @@ static const double dp = 0.015625, re = 2.1, SCALE = 0.5; /* SCALE: U_g [m/s] */
 
 enum { MOST = 4000 };
 
-/* Bodies of liquid on a lattice, each with its velocity along the first axis. */
+/* Blocks of liquid on a lattice, each with its velocity along the first axis. */
 typedef struct liquid {
     mps_sim *sim;
     int32_t dim;
@@ -63,7 +64,7 @@ static double first_time(liquid *l)
     return info.crossing_time;
 }
 
-/* A body of 6 x 6 (x 6) at 6 U_g, and another far above it. */
+/* A block of 6 x 6 (x 6) at 6 U_g, and another far above it. */
 static double beside(int32_t dim, const int *cells, double u)
 {
     static liquid l;
@@ -76,7 +77,8 @@ static double beside(int32_t dim, const int *cells, double u)
     return t;
 }
 
-/* A film of two rows that reaches the radius to both sides counts; drops do not, however many there are. */
+/* A film of two rows that extends over the radius to both sides is included; droplets are not, in
+ * any number. */
 static void films_and_drops(void **state)
 {
     (void)state;
@@ -90,7 +92,7 @@ static void films_and_drops(void **state)
         ASSERT_NEAR(beside(dim, drop, 12 * SCALE), slow, 1e-3 * slow);
         ASSERT_NEAR(beside(dim, one, 12 * SCALE), slow, 1e-3 * slow);
     }
-    static liquid l; /* as many particles as half of the body, each alone */
+    static liquid l; /* as many particles as half of the block, all isolated */
     const int origin[3] = {0, 0, 0}, one[3] = {1, 1, 1}, all[3] = {6, 6, 6};
     open_liquid(&l, 2, 1);
     add_body(&l, origin, all, 6 * SCALE);
@@ -99,7 +101,8 @@ static void films_and_drops(void **state)
     mps_sim_destroy(l.sim);
 }
 
-/* N - 1 and N fast particles within the radius of one of them: 8 in 2-D, 22 in 3-D. Each is far from the next, so that they stay as they are. */
+/* N - 1 and N fast particles within the radius of one of them: 8 in 2-D, 22 in 3-D. Each is far
+ * from the next, so that they stay as they are. */
 static void number_of_a_piece(void **state)
 {
     (void)state;
@@ -143,7 +146,7 @@ static void calm_and_moderate(void **state)
             }
 }
 
-/* ---- against a double loop --------------------------------------------------------------------- */
+/* ---- against a double loop ------------------------------------------------------------------- */
 
 static int descending(const void *a, const void *b)
 {
@@ -151,7 +154,8 @@ static int descending(const void *a, const void *b)
     return (x < y) - (x > y);
 }
 
-/* u_i by sorting: the N-th of the speeds within re, at most its own. `x`: places before the step. */
+/* u_i by sorting: the N-th of the speeds within re, at most its own. `x`: positions before the
+ * step. */
 static double piece_by_sorting(const liquid *l, const double *speed, int64_t i)
 {
     static double near[MOST];

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Densities of phases that verbs ask for: remembered from step to step, but never those of other particles. */
+/* Densities of phases that verbs request: cached from step to step, but invalidated when particles
+ * change. */
 #include "model_fixture.h"
 #include <mps/couple.h>
 

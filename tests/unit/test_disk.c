@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Checkpoints and a disk that fails: the order in which a file gets to the disk, and errors of fsync(), rename() and of a full disk. */
+/* Checkpoints and disk errors: the order of operations that write a file, and errors of fsync(),
+ * rename() and of a full disk. */
 #define _DEFAULT_SOURCE /* syscall() */
 #include "tank_fixture.h"
 #include <errno.h>
@@ -13,7 +14,7 @@
 static char folder[] = "mps_disk_XXXXXX", calls[64];
 static int file_error, folder_error, rename_error; /* 0: none */
 
-/* These take the place of the system's functions in the library. */
+/* These replace functions of the system in the library. */
 int fsync(int fd)
 {
     struct stat what;
@@ -74,7 +75,7 @@ static void order_of_calls(void **state)
     ASSERT_OK(*state, mps_checkpoint_read(*state, path_of("b")));
 }
 
-/* What was there stays, and nothing lies beside it. */
+/* The existing file remains, and there is no other file. */
 static void keeps_the_old(mps_sim *sim, const char *text)
 {
     const int file = file_error, folder_ = folder_error, name = rename_error;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Walls above the contact line show 0, whatever the equation continues to them; suction in liquid stays. */
+/* Walls above the contact line have pressure 0, for any pressure that the equation extrapolates to
+ * them; suction in liquid is kept. */
 #include "sim.h"
 #include "tank_fixture.h"
 #include <mps/model.h>
@@ -10,7 +11,7 @@ static const double GRAVITY = 9.81, RHO = 1000, PI = 3.14159265358979;
 typedef struct walls {
     double off;         /* largest deviation from the static pressure below the level */
     double least, most; /* what walls above it show */
-    double equation;    /* the least pressure that the equation gives them */
+    double equation;    /* the least pressure of the equation at them */
 } walls;
 
 static walls compare(const mps_sim *sim, double level)
@@ -69,7 +70,8 @@ static double force_x(mps_sim *sim, const char *part)
 
 /* ---- at rest ---- */
 
-/* The force on an end wall is that of the water below the level; the sensor at the level covers dp/2 of it. */
+/* The force on an end wall is that of the water below the level; the sensor at the level covers
+ * dp/2 of it. */
 static void still_tank(void **state)
 {
     (void)state;
@@ -93,7 +95,7 @@ static void still_tank(void **state)
                       dim, w.off, w.least, w.most, w.equation, sensor);
         assert_true(w.off < 0.02);
         assert_true(w.least > -1e-3 && w.most < 1e-3);
-        assert_true(w.equation < -0.9); /* so there was something to leave out */
+        assert_true(w.equation < -0.9); /* so there are pressures to suppress */
         ASSERT_NEAR(force_x(sim, "tank.x0"), -half, 1e-3 * half);
         ASSERT_NEAR(force_x(sim, "tank.x1"), half, 1e-3 * half);
         if (dim == 2) ASSERT_NEAR(sensor, 0.125, 0.01);
@@ -101,7 +103,7 @@ static void still_tank(void **state)
     }
 }
 
-/* Each side of a plate has its own level. */
+/* Each side of a plate has its own fill level. */
 static void sides_of_a_plate(void **state)
 {
     (void)state;
@@ -126,7 +128,8 @@ static void sides_of_a_plate(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Distance to the walls of a tank 1 m wide and 0.7 m high, with upper chamfers of 0.2 m and lower ones of 0.1 m. */
+/* Distance to the walls of a tank 1 m wide and 0.7 m high, with upper chamfers of 0.2 m and lower
+ * ones of 0.1 m. */
 static double chamfered(void *user, const double *x)
 {
     (void)user;
@@ -214,8 +217,9 @@ static void rolling(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Of all walls that void reaches, which have a least pressure: how far below 0 they show a pressure that the equation does not give them beyond
- * that, and how many of them have pulling liquid about them. */
+/* Of all walls adjacent to void, which have a lower bound of the pressure: how far below 0 they
+ * show a pressure that is not from the equation, and how many of them have liquid under suction
+ * around them. */
 static struct {
     double lowest;
     int64_t pulled, seen;
@@ -254,7 +258,8 @@ static const mps_model_ops void_model = {.struct_size = sizeof(mps_model_ops),
                                          .verb_count = 1,
                                          .verbs = void_verbs};
 
-/* A chamfered tank rolled near its first period: liquid in the angle of a knuckle is not always found to be on the surface, and pulls. */
+/* A chamfered tank rolled near its first period: liquid in the angle of a knuckle is not always
+ * found to be on the surface, and pulls. */
 static void void_reaches(void **state)
 {
     (void)state;
@@ -312,7 +317,7 @@ static void full_tank_pulls(void **state)
     }
 }
 
-/* An open tank that is pulled away at once: the wall behind keeps its suction down to the level. */
+/* An open tank that is suddenly accelerated: the rear wall keeps its suction below the level. */
 static void jump_pulls(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Who has neighbours of dummies: models that say so, and programs that ask for a stencil. */
+/* When dummies have rows: models that declare it, and programs that request a stencil. */
 #include "tank_fixture.h"
 #include "../tags.h"
 #include <mps/model.h>
@@ -10,7 +10,7 @@ static const double dp = 0.05;
 /* What a verb saw of near rows. */
 typedef struct sight {
     int64_t calls, dummies, with_row, in_fluid_rows,
-        beside; /* beside: fluid with a dummy as its neighbour, by mps_stage_beside() */
+        beside; /* beside: fluid with a dummy as neighbour, by mps_stage_beside() */
 } sight;
 static sight seen;
 
@@ -76,7 +76,7 @@ static sight step_with(mps_sim *sim, const char *name)
     return seen;
 }
 
-/* The model decides, from step to step, also while the candidates of a search still hold. */
+/* The active model decides in each step, also while the candidates of a search remain valid. */
 static void models_decide(void **state)
 {
     (void)state;
@@ -92,7 +92,7 @@ static void models_decide(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The order of the particles does not depend on which rows there are, nor does what comes of them. */
+/* The order of the particles and the results do not depend on the existing rows. */
 static void same_flow(void **state)
 {
     (void)state;

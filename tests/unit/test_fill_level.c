@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What fills and baffles are built like where they do not fit the lattice, and depths between its rows. */
+/* Fills and baffles that do not match the lattice, and depths between its rows. */
 #include "sim.h"
 #include "../every.h"
 #include "tank_fixture.h"
@@ -53,7 +53,7 @@ static void rounding_is_told(void **state)
     }
 }
 
-/* The upper row has its share of points, and what else is filled in takes the rest. */
+/* The upper row has its fraction of points, and a further fill uses the remaining ones. */
 static void share_of_a_row(void **state)
 {
     (void)state;
@@ -74,7 +74,7 @@ static void share_of_a_row(void **state)
         }
 }
 
-/* Levels of rows, and above the last row of the tank. */
+/* Levels at rows, and above the last row of the tank. */
 static void whole_rows(void **state)
 {
     (void)state;
@@ -140,8 +140,9 @@ static int measure(void *user, mps_sim *sim, const mps_step_info *info)
     return 0;
 }
 
-/* A depth of 93 mm is 93 mm within 1 % at gauge, floor and wall after 2 s at rest, with 7 rows and more. Of 4.65 rows the upper settles to
- * .1 dp: over 84 spacings and widths of tanks rows that are not whole settle .02 dp low, with a deviation of .05 dp. */
+/* A depth of 93 mm is 93 mm within 1 % at gauge, floor and wall after 2 s at rest, with 7 rows and
+ * more. For 4.65 rows the upper row settles to .1 dp: over 84 spacings and widths of tanks
+ * incomplete rows settle .02 dp too low, with a deviation of .05 dp. */
 static void level_at_rest(void **state)
 {
     static const double spacing[] = {0.00775, 0.0093, 0.01, 0.0133, 0.02};

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The volume of a fill in the log: built and asked for. */
+/* The volume of a fill in the log: built and requested. */
 #include "sim.h"
 #include "../every.h"
 #include "tank_fixture.h"
@@ -27,7 +27,7 @@ static mps_sim *logging(int32_t dim, double dp)
     return sim;
 }
 
-/* The volume that a fill tells, built and asked for; -1: there is no such line. */
+/* The built and requested volume that a fill logs; -1: no such line. */
 static void last_fill(double *built, double *asked)
 {
     const char *at = NULL, *next = told;
@@ -53,7 +53,8 @@ static double bowl(void *user, const double *x)
     return 0.25 - hypot(x[0], x[1] - 0.25);
 }
 
-/* Liquid below a level on a row of the lattice: that row is not inside, and the log tells what is missing. */
+/* Liquid below a level on a row of the lattice: this row is not inside, and the log reports the
+ * missing volume. */
 static void volumes_are_told(void **state)
 {
     (void)state;
@@ -146,7 +147,8 @@ static double trough(void *user, const double *x)
     return fmin(fmin(wall, fmin(x[1], 0.8 - x[1])), fmin(slope, side));
 }
 
-/* Of particles, and of half a spacing at walls: 0.45 m above the bottom, where its slopes have ended, and 0.2 m, where they have not. */
+/* Of particles, and of half a spacing at walls: 0.45 m above the bottom, where its slopes have
+ * ended, and 0.2 m, where they have not. */
 static void level_over_slopes(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a frame holds, read back with a small parser of the format. */
+/* Contents of a frame, read with a small parser of the format. */
 #include "frame_fixture.h"
 
 static void frames_read_back(void **state)
@@ -57,7 +57,8 @@ static int swing(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* In the frame of the tank the walls are where they were built and stand still; the fluid likewise. */
+/* In the frame of the tank the walls have their built positions and are at rest; so is the
+ * fluid. */
 static void frame_of_the_tank(void **state)
 {
     (void)state;
@@ -71,7 +72,7 @@ static void frame_of_the_tank(void **state)
         mps_lease u = {.struct_size = sizeof u};
         ASSERT_OK(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &u));
         for (int64_t i = 0; i < s->n;
-             i++) { /* all turn with the tank, fluid 1 m/s faster along X */
+             i++) { /* all rotate with the tank, fluid 1 m/s faster along X */
             double X[3], fast[3] = {s->kind[i] == MPS_FLUID, 0, 0}, more[3];
             mps__motion_to_tank(m, &m->now, s->x + i * dim, X);
             mps__motion_point(m, &m->now, X, NULL, u.data + i * dim, NULL);

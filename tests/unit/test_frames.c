@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Series of frames: valid after every frame, continued, and what else is in the folder stays. */
+/* Series of frames: valid after every frame, continued; other files in the folder remain. */
 #include "frame_fixture.h"
 #include <sys/stat.h>
 #include "locale_kit.h"
@@ -53,7 +53,7 @@ static bool there(const char *name)
     return access(path, F_OK) == 0;
 }
 
-/* A shorter series in the folder of a longer one leaves no old frame behind, and takes nothing that is not its own. */
+/* A shorter series in the folder of a longer one removes all old frames, and no other file. */
 static void old_frames_go(void **state)
 {
     (void)state;
@@ -79,7 +79,7 @@ static void old_frames_go(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A series of four frames at 0, 0.1, 0.2, 0.3 s, with something of another's beside them. */
+/* A series of four frames at 0, 0.1, 0.2, 0.3 s, together with other files. */
 static mps_sim *four_frames(const char *name)
 {
     char other[64];
@@ -96,7 +96,7 @@ static mps_sim *four_frames(const char *name)
     return sim;
 }
 
-/* The .pvd names frames at these times and no other, they are there, and the next one is not. */
+/* The .pvd lists frames at exactly these times, they exist, and the next one does not. */
 static void check_series(const char *name, int count, const double *t)
 {
     char file[64], wanted[4096] = "<Collection>\n";
@@ -149,7 +149,7 @@ static int at_even_steps(void *user, double t)
 }
 
 /* Files with the number of the step: frames are removed, also before a checkpoint from which the
- * series goes on. */
+ * series continues. */
 static void frames_are_removed(void **state)
 {
     mps_frames *frames;
@@ -172,7 +172,7 @@ static void frames_are_removed(void **state)
     free(text);
     assert_true(there("steps/steps_000040.vtp") && !there("steps/steps_000050.vtp"));
     assert_true(there("steps/steps_000060.vtp") && !there("steps/steps_000070.vtp"));
-    sim->world.state.t = 0.5; /* goes on from here; a frame was removed later */
+    sim->world.state.t = 0.5; /* continues from here; a frame was removed later */
     assert_int_equal(
         remove((snprintf(path_room, sizeof path_room, "%s/steps/steps_000040.vtp", folder),
                 path_room)),
@@ -191,7 +191,7 @@ static void frames_are_removed(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What is written at the time of the last frame takes its place. */
+/* A frame written at the time of the last frame replaces it. */
 static void no_time_twice(void **state)
 {
     (void)state;
@@ -222,7 +222,7 @@ static void nothing_to_go_on_with(void **state)
     check_series("fresh", 1, (const double[]){0});
     check_frame(sim, "fresh/fresh_000000.vtp", 3);
     mps_frames_close(frames);
-    sim->world.state.t = -1; /* before all there are */
+    sim->world.state.t = -1; /* before all frames */
     ASSERT_OK(sim, mps_frames_open(sim, folder, "fresh", MPS_FRAMES_CONTINUE, &frames));
     check_series("fresh", 0, NULL);
     mps_frames_close(frames);
@@ -239,7 +239,8 @@ static void put(const char *name, const char *text, size_t size)
     fclose(f);
 }
 
-/* A .pvd that is cut short anywhere, or has another character in any place, is refused and all frames stay. */
+/* A .pvd that is truncated anywhere, or has a changed character, is refused and all frames
+ * remain. */
 static void foreign_series_stays(void **state)
 {
     (void)state;
@@ -325,7 +326,7 @@ static void refusals(void **state)
     assert_int_equal(mps_frames_open(NULL, folder, "run", 0, &frames), MPS_E_ARG);
     assert_int_equal(mps_frames_write(NULL), MPS_E_ARG);
     mps_frames_close(NULL);
-    /* the frames' folder goes away under a running series */
+    /* the folder of the frames is removed during a series */
     ASSERT_OK(sim, mps_frames_open(sim, folder, "gone", 0, &frames));
     snprintf(path, sizeof path, "%s/gone", folder);
     assert_int_equal(rmdir(path), 0);

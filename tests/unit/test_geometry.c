@@ -53,7 +53,7 @@ static void rounding(void **state)
     }
 }
 
-/* A box whose ends lie on lattice planes up to rounding contains these planes. */
+/* A box whose ends are on lattice planes up to rounding contains these planes. */
 static void fill_includes_its_ends(void **state)
 {
     (void)state;
@@ -111,7 +111,7 @@ static void areas_3d(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Side walls and the dummy columns beside them end at the top lattice layer. */
+/* Side walls and the adjacent dummy columns end at the top lattice layer. */
 static void open_top(void **state)
 {
     (void)state;
@@ -151,7 +151,7 @@ static void parts_of_faces(void **state)
     mps_sim_destroy(sim);
 }
 
-/* On the floor, four columns thick: the floor below stays, three rows of the box stand on it. */
+/* On the floor, four columns thick: the floor below remains, three rows of the box are above it. */
 static void baffle_on_floor(void **state)
 {
     (void)state;
@@ -201,7 +201,8 @@ static void baffle_free_standing_3d(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Thinner than a spacing: one column, each point two walls with opposite areas, the floor below divided; the upper end a single one. */
+/* Thinner than a spacing: one column, each point two walls with opposite areas, the floor below
+ * divided; the upper end a single one. */
 static void thin_baffle(void **state)
 {
     (void)state;
@@ -226,7 +227,7 @@ static void thin_baffle(void **state)
 
 static int under_wave(void *user, const double *x)
 {
-    /* points of the lattice; places between them are asked for to tell the volume */
+    /* points of the lattice; points between them are queried for the volume */
     if (x[0] > 0.01 && x[0] < 0.99 && x[1] > 0.01 && x[1] < 0.99 &&
         fabs(20 * x[0] - round(20 * x[0])) + fabs(20 * x[1] - round(20 * x[1])) < 1e-6)
         ++*(int64_t *)user;
@@ -257,7 +258,8 @@ static void fill_by_callback(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Points nearer than half a spacing to a particle are taken, wherever that lies. */
+/* Points closer than half a spacing to a particle are occupied, for any position of the
+ * particle. */
 static void fill_keeps_away_from_particles(void **state)
 {
     (void)state;
@@ -273,7 +275,7 @@ static void fill_keeps_away_from_particles(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Fill and tank follow the pose of the tank at the present time. */
+/* Fill and tank use the current pose of the tank. */
 static void moved_tank(void **state)
 {
     (void)state;
@@ -292,7 +294,7 @@ static void moved_tank(void **state)
         ASSERT_NEAR(s->x[2 * i], x[0], 0);
         ASSERT_NEAR(s->x[2 * i + 1], x[1], 0);
     }
-    /* the fluid is one spacing from the wall wherever the tank stands */
+    /* the fluid is one spacing from the wall for any position of the tank */
     double nearest = 1;
     for (int64_t i = 0; i < s->n; i++)
         for (int64_t j = 0; j < s->n; j++)
@@ -339,7 +341,7 @@ static void tank_refusals(void **state)
     assert_int_equal(mps_particles_count(sim, -1), 15 * 15 - 9 * 9);
     ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG,
                    "particles that are there already");
-    /* a failed tank leaves no part names behind */
+    /* a failed tank leaves no part names */
     tank.name = "second";
     ASSERT_REFUSED(sim, mps_tank_add(sim, &tank, NULL), MPS_E_ARG, "second");
     assert_int_equal(mps_part_find(sim, "second.x0"), -1);
@@ -394,7 +396,8 @@ static void fill_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A solid never encloses fluid: whatever comes nearer than half a spacing is refused with its place, and nothing is added. */
+/* A solid never encloses fluid: if its distance is below half a spacing it is refused with the
+ * position, and nothing is added. */
 static void fluid_in_the_way(void **state)
 {
     (void)state;
@@ -424,7 +427,8 @@ static void fluid_in_the_way(void **state)
     }
 }
 
-/* Fluid that is nowhere near a lattice point of the solid is in its way all the same; half a spacing off it is not, nor in a tank. */
+/* Fluid that is nowhere near a lattice point of the solid is in its way all the same; half a
+ * spacing off it is not, nor in a tank. */
 static void fluid_between_the_points(void **state)
 {
     (void)state;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields and leases of particles: what is read and written, and everything that is refused. */
+/* Fields and leases of particles: reads, writes and all refusals. */
 #include "particle_fixture.h"
 
-/* ---- leases ------------------------------------------------------------------------------------------------------------ */
+/* ---- leases ---------------------------------------------------------------------------------- */
 
 static void lease_conflicts(void **state)
 {
@@ -90,7 +90,8 @@ static void lease_blocks(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Written values are seen by the next step; NaN is refused by name and place, and can be repaired. */
+/* Written values are used by the next step; NaN is refused with name and index, and can be
+ * corrected. */
 static void written_values(void **state)
 {
     (void)state;
@@ -123,7 +124,7 @@ static void links_follow(void **state)
     (void)state;
     mps__context context = {.allocator = mps__allocator_default()};
     mps__particles s;
-    const int32_t order[4] = {3, 1, 4, 0}; /* 2 goes */
+    const int32_t order[4] = {3, 1, 4, 0}; /* 2 is removed */
     assert_int_equal(mps__particles_init(&s, &context, 2), MPS_OK);
     assert_int_equal(mps__particles_reserve(&s, 5), MPS_OK);
     assert_int_equal(mps__particles_append(&s, 5, MPS_WALL), 0);
@@ -142,8 +143,8 @@ static void links_follow(void **state)
     mps__particles_free(&s);
 }
 
-/* The stencil has the pairs of the present positions, also while a lease reads; no particle changes its row, and later steps
- * are as without the call. */
+/* The stencil has the pairs of the current positions, also during a read lease; no particle changes
+ * its index, and later steps are as without the call. */
 static void stencil_of_moved(double shift, bool look, double *after)
 {
     mps_sim *sim = pool();
@@ -189,7 +190,7 @@ static void stencil_under_lease(void **state)
     }
 }
 
-/* ---- fields and ids ------------------------------------------------------------------------------------------------------- */
+/* ---- fields and ids -------------------------------------------------------------------------- */
 
 static void field_refused(void **state)
 {
@@ -215,7 +216,7 @@ static void field_refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Write to a field what tells its particle: its place at the start, and its id. */
+/* Write values to a field that identify its particle: its initial position, and its id. */
 static void mark(mps_sim *sim)
 {
     mps_lease mine = {.struct_size = sizeof mine}, x = {.struct_size = sizeof x};
@@ -235,7 +236,8 @@ static void mark(mps_sim *sim)
     ASSERT_OK(sim, mps_lease_end(sim, &x));
 }
 
-/* The store is sorted by the first step and grown by an addition: every particle keeps what is its own. */
+/* The store is sorted by the first step and grown by an addition: every particle keeps what is its
+ * own. */
 static void field_travels(void **state)
 {
     (void)state;
@@ -266,7 +268,8 @@ static void field_travels(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Integers of particles are leased by name, for reading only, and pin the order as all leases do. */
+/* Integers of particles are leased by name, for reading only, and prevent reordering like all
+ * leases. */
 static void leases_of_tags(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The lists of models, settings, channels, verbs, solvers, preconditioners, kernels and presets:
- * complete, described, and what the functions that take a name accept. */
+ * complete, with descriptions, and equal to the names that functions accept. */
 #include "model_fixture.h"
 #include <mps/ppe.h>
 #include <stdio.h>
@@ -56,7 +56,7 @@ static void models(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The value is the present one while the model is active. */
+/* The value is the current one while the model is active. */
 static void value_of_a_setting(void **state)
 {
     (void)state;
@@ -188,7 +188,7 @@ static mps_status use_kernel(mps_sim *sim, const char *name)
         assert_int_equal(active, 1);
     }
     mps_sim_destroy(other);
-    if (status < 0) mps_preset_use(sim, error); /* so that mps_sim_error() holds the text */
+    if (status < 0) mps_preset_use(sim, error); /* so that mps_sim_error() returns the text */
     return status;
 }
 
@@ -207,13 +207,13 @@ static const struct {
     list_fn list;
     mps_status (*use)(mps_sim *sim, const char *name);
     int32_t count;
-    int marks; /* the list says which is in use */
+    int marks; /* the list shows which is in use */
 } all_names[] = {{"presets", mps_preset_info_get, mps_preset_use, 4, 0},
                  {"solvers", mps_solver_info_get, use_solver, 5, 1},
                  {"preconditioners", mps_preconditioner_info_get, use_preconditioner, 3, 1},
                  {"kernels", mps_kernel_info_get, use_kernel, 2, 0}};
 
-/* Those that are listed are accepted, and a refusal names the same ones. */
+/* Listed names are accepted, and the text of a refusal contains the same names. */
 static void names(void **state)
 {
     (void)state;
@@ -354,7 +354,8 @@ static void beyond_the_end(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A struct of a newer header gets the entries of the library, no byte more; one that is too short is refused. */
+/* A struct of a newer header gets the entries of the library, no byte more; one that is too short
+ * is refused. */
 static void other_sizes(void **state)
 {
     (void)state;

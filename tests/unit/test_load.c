@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* load.reaction: the pressure that walls show, against a loop over all particles. */
+/* load.reaction: the wall pressure, against a loop over all particles. */
 #include "cloud.h"
 #include "tank_fixture.h"
 #include <mps/model.h>
@@ -21,17 +21,17 @@ static const mps_use bound_uses[BOUND_USES] = {
     [BOUND_CONDITION] = {"pressure_condition", MPS_USE_CHANGE},
     [BOUND_VALUE] = {"pressure_value", MPS_USE_CHANGE}};
 
-/* Walls so far: by what they show (dry: less than the equation continues to them), and those with a particle of the
- * surface or spray about them. */
+/* Walls so far: by what they show (dry: less than the equation continues to them), and those with a
+ * particle of the surface or spray about them. */
 static struct {
     int64_t pressed, held, dry, pulls, surface, spray;
-    int64_t whole, part, none; /* by the covered share of their faces */
+    int64_t whole, part, none; /* by the covered fraction of their faces */
     bool cover;
     double gas;   /* least pressure of all wetted walls [Pa]; 0: none */
     double worst; /* largest |wall_pressure - expected| over the largest pressure */
 } seen;
 
-/* One pair of a wall and the fluid beside it. */
+/* One pair of a wall and the adjacent fluid. */
 typedef struct pair {
     double d[3], w, w_r2, r2;
 } pair;
@@ -75,7 +75,7 @@ static double rise(const mps_stage *s, int64_t i, int64_t j, const double *r, do
     return region[j] == MPS_REGION_SURFACE ? p[i] - *carried : 2 * mean * moved;
 }
 
-/* What lies before a wall, along its face and along the normal n. */
+/* Contribution of particles in front of a wall, along its face and along the normal n. */
 static double along_face(const mps_view *v, int64_t i, int64_t j, const double *n, double *s)
 {
     double height = 0;
@@ -85,7 +85,7 @@ static double along_face(const mps_view *v, int64_t i, int64_t j, const double *
     return height;
 }
 
-/* Share of a face below liquid, head of covered_share() in src/bc/load_reaction.c. */
+/* Covered fraction of a face, see covered_share() in src/bc/load_reaction.c. */
 static double covered(const mps_stage *s, int64_t i, const double *n)
 {
     const mps_view *v = s->view;
@@ -113,7 +113,7 @@ static double covered(const mps_stage *s, int64_t i, const double *n)
     return fmin(1, fmax(0, 1 - least / dp) + across);
 }
 
-/* Covered share, counted; 1 without the setting. */
+/* Covered fraction, counted; 1 without the setting. */
 static double share_of(const mps_stage *s, int64_t i, double size)
 {
     double n[3] = {0};
@@ -184,7 +184,7 @@ static int compare(mps_stage *s)
     return 0;
 }
 
-/* Gas beside all walls. */
+/* Gas next to all walls. */
 static int bound_walls(mps_stage *s)
 {
     int32_t *condition = s->data[BOUND_CONDITION];
@@ -238,7 +238,8 @@ static mps_sim *splash(int32_t dim)
     return sim;
 }
 
-/* Walls that press, walls whose suction is held back, walls beside the surface and beside spray, each with the mean pressure on its whole face. */
+/* Walls with pressure, walls with limited suction, walls next to the surface and next to spray,
+ * each with the mean pressure on its whole face. */
 static void sum_over_the_fluid(void **state)
 {
     (void)state;
@@ -259,7 +260,8 @@ static void sum_over_the_fluid(void **state)
     }
 }
 
-/* The same by default, with the mean pressure on the covered share of a face, beside void and beside gas. */
+/* The default: the mean pressure on the covered fraction of a face, next to void and next to
+ * gas. */
 static void covered_faces(void **state)
 {
     (void)state;

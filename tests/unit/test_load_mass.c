@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Load by momentum and added mass, against what is known exactly. */
+/* Load by momentum and added mass, against exact values. */
 #include "tank_fixture.h"
 #include <stdio.h>
 
@@ -49,7 +49,8 @@ static mps_load trial(mps_sim *sim, const mps_snapshot *start, int32_t dof, doub
     return l;
 }
 
-/* All of the liquid moves with the tank; about the middle rho (I_polar - St Venant's torsion constant): 9.293. */
+/* All of the liquid moves with the tank; about the middle rho (I_polar - St Venant's torsion
+ * constant): 9.293. */
 static void full_box(void **state)
 {
     mps_sim *sim = tank(2, 0.01, 0.5, 0.25);
@@ -94,7 +95,8 @@ static void with_surface(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A third dimension: all of a full box, and its share with a surface, where the width does not count for surge. */
+/* A third dimension: all of a full box, and its fraction with a surface, where the width has no
+ * effect on surge. */
 static void in_3d(void **state)
 {
     mps_sim *sim = tank(3, 0.05, 0.5, 0.25);
@@ -118,7 +120,8 @@ static void in_3d(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A is the derivative of F: central differences of whole steps, in a wave. The column of each degree of freedom. */
+/* A is the derivative of F: central differences of whole steps, in a wave. The column of each
+ * degree of freedom. */
 static void derivative(mps_sim *sim, double tolerance)
 {
     static const int32_t dof[3] = {MPS_MOVE_X, MPS_MOVE_Y, MPS_ROTATE_Z};
@@ -182,14 +185,15 @@ static void with_air(void **state)
         }
         const mps_load l = step_with(sim, MPS_LOAD_MASS, 5);
         assert_int_equal(l.has_mass, 1);
-        /* whole cells of water and half a cell at the floor: the interface is half a spacing above the last row */
+        /* whole cells of water and half a cell at the floor: the interface is half a spacing above
+         * the last row */
         ASSERT_NEAR(l.mass[0], surge_mass(10.5 * 0.025), 0.03 * 70);
         derivative(sim, 5e-3);
         mps_sim_destroy(sim);
     }
 }
 
-/* About another centre: what a tank that turns about it has. */
+/* About another centre: the values of a tank that rotates about it. */
 static void other_centre(void **state)
 {
     const double there[2] = {0.1, 0.3};
@@ -205,7 +209,7 @@ static void other_centre(void **state)
     mps_sim_destroy(moved);
 }
 
-/* A tank that turns has an acceleration about each point. */
+/* A rotating tank has an acceleration about each point. */
 static void acceleration_of_points(void **state)
 {
     const mps_harmonic h = {.dof = MPS_ROTATE_Z, .form = 1, .amplitude = 0.05, .omega = 4};
@@ -226,7 +230,7 @@ static void acceleration_of_points(void **state)
     mps_sim_destroy(sim);
 }
 
-/* It looks on: the liquid goes the same way. A snapshot knows the load, too. */
+/* It does not change the motion of the liquid. A snapshot includes the load, too. */
 static void changes_nothing(void **state)
 {
     mps_sim *sim[2] = {tank(2, 0.05, 0.25, 0), tank(2, 0.05, 0.25, 0)};

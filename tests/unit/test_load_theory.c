@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Added mass in 3-D and of two layers against exact solutions; the mass of the liquid counted cell by cell. */
+/* Added mass in 3-D and of two layers against exact solutions; the mass of the liquid counted cell
+ * by cell. */
 #include "tank_fixture.h"
 
 static const double rho = 1000, dt = 1e-3;
@@ -15,7 +16,8 @@ static mps_load load_after(mps_sim *sim, int32_t what, int32_t steps)
     return l;
 }
 
-/* A tank with liquid up to `depth`, moments about the middle of its width and length at `height`. */
+/* A tank with liquid up to `depth`, moments about the middle of its width and length at
+ * `height`. */
 static mps_sim *tank(int32_t dim, double dp, const double size[3], double depth, double height)
 {
     const double centre[3] = {size[0] / 2, height, size[2] / 2};
@@ -28,7 +30,8 @@ static mps_sim *tank(int32_t dim, double dp, const double size[3], double depth,
 
 /* ---- cells ---- */
 
-/* A full tank that does not move weighs rho V g: whole cells, halves at faces, quarters at edges, eighths at corners. */
+/* A full tank that does not move weighs rho V g: whole cells, halves at faces, quarters at edges,
+ * eighths at corners. */
 static void cells_of_boxes(void **state)
 {
     static const int rows[][3] = {{8, 5, 4}, {4, 4, 4}, {6, 4, 9}, {8, 5, 0}, {4, 9, 0}};
@@ -43,7 +46,8 @@ static void cells_of_boxes(void **state)
     }
 }
 
-/* A block hangs in the liquid, which has three quarters of a cell at its edges and seven eighths at its corners. */
+/* A block hangs in the liquid, which has three quarters of a cell at its edges and seven eighths at
+ * its corners. */
 static void cells_about_a_block(void **state)
 {
     const double dp = 0.05, lo[3] = {0.2, 0.2, 0.2}, hi[3] = {0.4, 0.35, 0.4};
@@ -62,7 +66,8 @@ static void cells_about_a_block(void **state)
 
 /* ---- 3-D ---- */
 
-/* St Venant: a full box a x b of length l that turns about its long axis has rho l (I_polar - torsion constant). */
+/* St Venant: a full box a x b of length l that rotates about its long axis has rho l (I_polar -
+ * torsion constant). */
 static double turned_box(double a, double b, double l)
 {
     const double pi = acos(-1.0);
@@ -73,7 +78,7 @@ static double turned_box(double a, double b, double l)
     return rho * l * (a * b * (a * a + b * b) / 12 - torsion);
 }
 
-/* Columns of a tank that goes straight: all of the liquid. Turning does not move its middle. */
+/* Columns of translations: all of the liquid. Rotation does not move its centre. */
 static void full_box(void **state)
 {
     const double size[3] = {0.5, 0.45, 0.4}, mass = rho * 0.5 * 0.45 * 0.4;
@@ -90,7 +95,8 @@ static void full_box(void **state)
     mps_sim_destroy(sim);
 }
 
-/* p = 0 on the surface; a tank L x h: A11 = 4 rho/h sum tanh(k L/2)/k^3, k = (m - 1/2) pi/h, times its width. */
+/* p = 0 on the surface; a tank L x h: A11 = 4 rho/h sum tanh(k L/2)/k^3, k = (m - 1/2) pi/h, times
+ * its width. */
 static double surge_mass(double L, double h)
 {
     double sum = 0;
@@ -119,10 +125,12 @@ static void with_surface(void **state)
 
 /* ---- two layers ---- */
 
-/* A closed tank L x (h1 + h2), layers of rho[0] below rho[1], of which the upper gives way: lap p = (p/reach^2), reach = c dt of its speed of sound,
- * INFINITY: it does not. p is continuous, so is (dp/dn)/rho. With p = P_i + q_i, P_i the solution of a layer alone, and the cosine series of
- * P_2 - P_1 along the interface, k = n pi/L, n odd, s^2 = k^2 + 1/reach^2:
- *   A11 = rho_1 L h1 + 2 rho_2 h2 reach tanh(L/(2 reach)) + sum 2 (a T1/k + b T2/s),   T1 = tanh(k h1), T2 = tanh(s h2),
+/* A closed tank L x (h1 + h2), layers of rho[0] below rho[1], of which the upper is compressible:
+ * lap p = (p/reach^2), reach = c dt of its speed of sound, INFINITY: incompressible. p is
+ * continuous, so is (dp/dn)/rho. With p = P_i + q_i, P_i the solution of a layer alone, and the
+ * cosine series of P_2 - P_1 along the interface, k = n pi/L, n odd, s^2 = k^2 + 1/reach^2:
+ *   A11 = rho_1 L h1 + 2 rho_2 h2 reach tanh(L/(2 reach)) + sum 2 (a T1/k + b T2/s),   T1 = tanh(k
+ *   h1), T2 = tanh(s h2),
  *   a - b = 4/L (rho_2/s^2 - rho_1/k^2),  a k T1/rho_1 + b s T2/rho_2 = 0. */
 static double two_layers(double L, const double h[2], const double density[2], double reach)
 {
@@ -183,8 +191,9 @@ static void two_liquids(void **state)
     }
 }
 
-/* A heavy gas, so that it counts; its sound passes a part of the tank in a step. A step removes the share `gain` of the divergence, so that its gas
- * gives way as much as one of c/sqrt(gain). */
+/* A heavy gas, so that its effect is large; sound travels through a part of the tank in a step. A
+ * step removes the fraction `gain` of the divergence, so that its gas is as compressible as one
+ * with c/sqrt(gain). */
 static void liquid_and_gas(void **state)
 {
     static const double sound[] = {50, 200};
@@ -211,7 +220,8 @@ static void liquid_and_gas(void **state)
     }
 }
 
-/* The series: without an upper layer it is the tank with a free surface, of one density all of it. */
+/* The series: without an upper layer it is the tank with a free surface, of one density all of
+ * it. */
 static void series(void **state)
 {
     const double h[2] = {0.25, 0.25}, light[2] = {rho, 1e-6}, same[2] = {rho, rho};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What code may do that the library calls: nothing that changes the simulation; in a monitor it may
- * read, everywhere it may ask for single values. The table has every function of a simulation. */
+/* Functions allowed in callbacks: none that change the simulation; a monitor may read, all
+ * callbacks may query single values. The table has every function of a simulation. */
 #include "model_fixture.h"
 #include "lock_calls.h"
 #include <stdio.h>
@@ -37,7 +37,7 @@ static void check_call(const lock_call *c, int where)
         fail_msg("%s from %s says '%s'", c->name, where_name[where], mps_sim_error(test.sim));
 }
 
-/* All calls, once for each place. */
+/* All calls, once for each kind of callback. */
 static void meddle(int where)
 {
     if (!test.sim || test.busy || test.done[where]) return;
@@ -255,7 +255,7 @@ static int nothing_to_make(const mps_allocator *allocator, void **self)
     return 0;
 }
 
-/* It does nothing, ends, and says so. */
+/* It does nothing, returns, and sets an error. */
 static void destroy_in_callbacks(void **state)
 {
     const mps_model_ops ops = {TOY("ending.toy", 1, idle_verbs), .create = nothing_to_make,

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops of the core: each row once, in both dimensions, sums and maxima the same bytes on any number of threads; sums up to each row. */
+/* Loops of the core: each row once, in both dimensions, sums and maxima the same bytes on any
+ * number of threads; sums up to each row. */
 #include "loop.h"
 #include "scan.h"
 #include "tank_fixture.h"
@@ -88,7 +89,8 @@ static void sums_and_maxima(void **state)
     }
 }
 
-/* Sizes about a block, a block of blocks; the room behind them, and no number more, is written. */
+/* Sizes around a block, a block of blocks; the workspace after them is written, and nothing
+ * beyond. */
 static void sums_up_to_each(void **state)
 {
     static const int64_t size[] = {0, 1, 2, 63, 127, 128, 129, 1023, 1025, 16384, 16385, 100000};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles that leave the domain or the tank: both policies, domains given and not, tanks that moved and turned. */
+/* Particles that leave the domain or the tank: both policies, explicit and default domains, moved
+ * and rotated tanks. */
 #include "tank_fixture.h"
 #include <stdio.h>
 
@@ -18,7 +19,8 @@ static void keep_message(void *user, int level, const char *text)
     snprintf(m->text, sizeof m->text, "%s", text);
 }
 
-/* A pool in a tank of 0.5 m; the domain ends 0.7 m (its longest side with dummies) beyond the solids. */
+/* A pool in a tank of 0.5 m; the domain ends 0.7 m (its longest side with dummies) beyond the
+ * solids. */
 static mps_sim *pool(int32_t policy, message *m, const double *lo, const double *hi)
 {
     mps_config c;
@@ -129,7 +131,8 @@ static void given_domain(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Where the nearest solid is a dummy, and its wall's face looks the other way, the liquid is out of the tank. */
+/* If the nearest solid is a dummy, and the face of its wall points the other way, the liquid is
+ * outside of the tank. */
 static void behind_a_wall(void **state)
 {
     (void)state;
@@ -158,7 +161,8 @@ static void behind_a_wall(void **state)
     mps_sim_destroy(sim);
 }
 
-/* No particle is lost behind a plate: its shadows are in the liquid of the other side, dummies between its columns behind both faces. */
+/* No particle is lost behind a plate: its shadows are in the liquid of the other side, dummies
+ * between its columns behind both faces. */
 static void beside_a_plate(void **state)
 {
     (void)state;
@@ -179,7 +183,7 @@ static void beside_a_plate(void **state)
     }
 }
 
-/* Turned by a quarter and carried away: lab (x, y) = (5 - Y, 2 + X). */
+/* Rotated by 90 degrees and displaced: lab (x, y) = (5 - Y, 2 + X). */
 static int quarter_turn(void *user, double t, mps_motion_state *state)
 {
     (void)user, (void)t;
@@ -189,7 +193,7 @@ static int quarter_turn(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* The domain goes with the tank: what counts is the place in the tank's frame. */
+/* The domain moves with the tank: the position in the frame of the tank is decisive. */
 static void moved_tank(void **state)
 {
     (void)state;
@@ -199,8 +203,7 @@ static void moved_tank(void **state)
     ASSERT_OK(sim, mps_motion_callback_set(sim, quarter_turn, NULL));
     assert_int_equal(lost_in_step(sim), 0); /* far from where the tank was */
     assert_int_equal(mps_particles_count(sim, -1), n);
-    put(sim, id, 5 - 1.25,
-        2 + 0.25); /* over the open end of the tank, which lies on its side now */
+    put(sim, id, 5 - 1.25, 2 + 0.25); /* over the open end of the tank, which is now on its side */
     assert_int_equal(lost_in_step(sim), 0);
     put(sim, id, 5 - 1.35, 2 + 0.25);
     assert_int_equal(lost_in_step(sim), 1);
@@ -211,7 +214,7 @@ static void moved_tank(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Without solids there is no domain, and a particle far out is still no reason to hang. */
+/* Without solids there is no domain; a distant particle must not cause a hang. */
 static void no_domain(void **state)
 {
     (void)state;
@@ -231,7 +234,7 @@ static void no_domain(void **state)
     mps_sim_destroy(sim);
 }
 
-/* No fluid is left: the step that lost the last particle says so. */
+/* No fluid remains: the step that lost the last particle reports it. */
 static void all_lost(void **state)
 {
     (void)state;
@@ -249,7 +252,7 @@ static void all_lost(void **state)
     mps_sim_destroy(sim);
 }
 
-/* ---- steps that are too long for what the walls can hold ---- */
+/* ---- steps that are too long for the walls ---- */
 
 /* A drop in the middle of an empty tank of 1 m, with 31 m/s. */
 static mps_sim *bullet(int32_t layers, message *m, const mps_time_control *control)
@@ -286,7 +289,8 @@ static mps_time_control fixed_step(double dt)
     return c;
 }
 
-/* 3.1 spacings are more than a wall and two dummies: the step is undone. One more layer holds them, and so does a tank that goes along. */
+/* 3.1 spacings are more than a wall and two dummies: the step is undone. One more layer is
+ * sufficient, and so is a tank that moves along. */
 static void too_long_steps(void **state)
 {
     (void)state;
@@ -328,7 +332,7 @@ static void too_long_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step that fails loses no particle, whatever it removed before: not from the store, the count or the budget. */
+/* A failed step loses no particle, not from the store, the count or the budget. */
 static void failed_step_loses_no_particle(void **state)
 {
     (void)state;
@@ -397,7 +401,8 @@ static void everything_lost(void **state)
     mps_sim_destroy(sim);
 }
 
-/* More than a spacing a step is told once, and only of steps that do not follow the speed. */
+/* More than a spacing per step is logged once, and only for steps that are not limited by the
+ * speed. */
 static void long_steps_are_told_once(void **state)
 {
     (void)state;
@@ -422,7 +427,7 @@ static void long_steps_are_told_once(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Fluid that is added outside of the walls is told at once. */
+/* Fluid added outside of the walls is logged immediately. */
 static void added_outside(void **state)
 {
     (void)state;

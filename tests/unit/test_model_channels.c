@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Channels that live for a step: whose names, who shares them, when they may be used, and what they
- * hold at the beginning of each step. */
+/* Channels of MPS_LIFE_STEP: names, common use by models, allowed hooks, and their values at the
+ * beginning of each step. */
 #include "model_fixture.h"
 #include <stdio.h>
 
@@ -33,7 +33,7 @@ static void names_of_the_library(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Fields and channels share their names. */
+/* Fields and channels have common names. */
 static void names_of_fields(void **state)
 {
     (void)state;
@@ -58,7 +58,7 @@ static void names_of_fields(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A channel is there as long as one of those that bring it. */
+/* A channel exists as long as one of the models that provide it. */
 static void shared_by_two(void **state)
 {
     (void)state;
@@ -110,7 +110,7 @@ static void refused_as_before(mps_sim *sim, const char *name)
     ASSERT_OK(sim, mps_step(sim, 1, NULL));
 }
 
-/* A description that differs in one entry; what the model brought before it goes again. */
+/* A description that differs in one entry; channels that the model added before it are removed. */
 static void conflict(void **state)
 {
     (void)state;
@@ -140,7 +140,7 @@ static void conflict(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The model that leaves the slot does not conflict with the one that comes. */
+/* The replaced model of a slot does not conflict with the new one. */
 static void conflict_within_a_slot(void **state)
 {
     (void)state;
@@ -204,7 +204,7 @@ static void missing_channel(void **state)
     mps_sim_destroy(sim);
 }
 
-/* All hooks, own channels and one of a model: what the list tells is what a step accepts. */
+/* All hooks, own channels and one of a model: the list and a step agree. */
 static void wrong_hook(void **state)
 {
     (void)state;
@@ -299,7 +299,7 @@ static int spoil(mps_stage *s)
     return 0;
 }
 
-/* At each step, also when there are more particles than before. */
+/* In each step, also with more particles than before. */
 static void first_values(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of the pressure equation that a model leaves out of their range are refused. */
+/* Numbers of the pressure equation that a model writes out of their range are refused. */
 #include "model_fixture.h"
 
 enum { RADIUS, GAIN, WALL_FACTOR, USES };
@@ -70,7 +70,8 @@ static void equation_out_of_range(void **state)
     }
 }
 
-/* A number of the equation has one owner; others change what it wrote, whatever the order of registration. */
+/* A number of the equation has one writer; other models change its value, in any order of
+ * registration. */
 static void one_owner(void **state)
 {
     (void)state;

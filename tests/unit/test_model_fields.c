@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Channels that live as long as their particle, and fields of the user that verbs use. */
+/* Channels of MPS_LIFE_PARTICLE, and fields of the user in verbs. */
 #include "model_fixture.h"
 #include "../tags.h"
 #include <stdio.h>
@@ -76,8 +76,8 @@ static void mark_all(mps_sim *sim)
     ASSERT_OK(sim, mps_lease_end(sim, &l));
 }
 
-/* Particles with ids below `marked` have their marks, later ones have none. Returns how many are no
- * longer in the order of their ids. */
+/* Particles with ids below `marked` have their marks, later ones have none. Returns the number of
+ * particles that are not in the order of their ids. */
 static int64_t check_marks(mps_sim *sim, int64_t marked)
 {
     const int64_t *ids;
@@ -132,8 +132,8 @@ static void lease(void **state)
     }
 }
 
-/* A field that the user made before is taken with its values; new particles begin as the model
- * says. */
+/* A field that the user created before is used with its values; new particles have the initial
+ * value of the model. */
 static void takes_a_field(void **state)
 {
     (void)state;
@@ -152,7 +152,8 @@ static void takes_a_field(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Another width, or an array of the library: refused, and nothing of the model is there. */
+/* Another number of components, or an array of the library: refused, and no part of the model is
+ * active. */
 static void takes_no_other_field(void **state)
 {
     (void)state;
@@ -264,7 +265,8 @@ static void checkpoint(void **state)
     remove(path);
 }
 
-/* The values are the user's when the model has gone, and its own when it comes back. */
+/* The field is the user's after the model is removed, and the model's when it is activated
+ * again. */
 static void stays(void **state)
 {
     (void)state;
@@ -298,7 +300,7 @@ static int count_up(mps_stage *s)
     return test.fail;
 }
 
-/* A verb names a field that the user made; it is there in all hooks, and comes back too. */
+/* A verb uses a field of the user; it exists in all hooks, and is restored too. */
 static void field_by_name(void **state)
 {
     (void)state;

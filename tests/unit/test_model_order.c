@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The order of verbs: by what they do to a channel, by `after` and `before`, by registration; the
- * same whatever order models are switched on in. */
+/* The order of verbs: by access to channels, by `after` and `before`, by registration; independent
+ * of the order of activation. */
 #include "built_in.h"
 #include "model_fixture.h"
 #include "models.h"
@@ -60,24 +60,24 @@ static const scene scenes[] = {
      {{"c", 0, 0, {READS("r")}},
       {"b", 0, 0, {READS("q"), WRITES("r")}},
       {"a", 0, 0, {WRITES("q")}}}},
-    /* a name holds instead of the channels */
+    /* a name overrides the channels */
     {"r w", {0}, {{"w", "r", 0, {WRITES("q")}}, {"r", 0, 0, {READS("q")}}}},
     {"r w", {0}, {{"w", 0, 0, {WRITES("q")}}, {"r", 0, "w", {READS("q")}}}},
     {"b a", {0}, {{"a", "b.toy", 0, {{0}}}, {"b", 0, 0, {{0}}}}},
-    /* names of models that are not active say nothing */
+    /* names of inactive models have no effect */
     {"w r", {0}, {{"w", "absent", 0, {WRITES("q")}}, {"r", 0, "absent", {READS("q")}}}},
     /* first and last of all */
     {"b c a", {0}, {{"a", "*", 0, {{0}}}, {"b", 0, 0, {{0}}}, {"c", 0, 0, {{0}}}}},
     {"c a b", {0}, {{"a", 0, 0, {{0}}}, {"b", 0, 0, {{0}}}, {"c", 0, "*", {{0}}}}},
     {"r w", {0}, {{"w", 0, 0, {WRITES("q")}}, {"r", 0, "*", {READS("q")}}}},
     {"r w", {0}, {{"w", "*", 0, {WRITES("q")}}, {"r", 0, 0, {READS("q")}}}},
-    /* two that both want to be the last: the channels decide */
+    /* two verbs with after "*": the channels decide */
     {"w r", {0}, {{"r", "*", 0, {READS("q")}}, {"w", "*", 0, {WRITES("q")}}}},
     {"a b", {0}, {{"a", "*", 0, {{0}}}, {"b", "*", 0, {{0}}}}},
-    /* a name says more than a star */
+    /* a name overrides a star */
     {"b a c", {0}, {{"a", 0, "*", {{0}}}, {"b", 0, "a", {{0}}}, {"c", 0, 0, {{0}}}}},
     {"c a b", {0}, {{"a", "*", 0, {{0}}}, {"b", "a", 0, {{0}}}, {"c", 0, 0, {{0}}}}},
-    /* two that contradict each other by name say nothing */
+    /* two contradicting names have no effect */
     {"w r", {0}, {{"r", "w", "w", {READS("q")}}, {"w", 0, 0, {WRITES("q")}}}},
     {"a b", {0}, {{"a", "b", 0, {{0}}}, {"b", "a", 0, {{0}}}}},
     /* verbs that wait for each other; others that wait for them are not named */
@@ -141,7 +141,7 @@ static int register_scene(mps_sim *sim, const scene *c)
     return count;
 }
 
-/* Names of the verbs of MPS_FORCE as the list tells them. */
+/* Names of the verbs of MPS_FORCE in the list. */
 static mps_status listed(mps_sim *sim, char out[64])
 {
     mps_verb_info v;
@@ -211,7 +211,7 @@ static void order(void **state)
     }
 }
 
-/* Two that wait for each other are no harm when one of them goes. */
+/* A cycle of two verbs is resolved if one of them is removed. */
 static void one_of_two_goes(void **state)
 {
     (void)state;
@@ -281,7 +281,7 @@ static bool stars(const char *mine, const char *theirs)
     return (mine && strcmp(mine, "*") == 0) != (theirs && strcmp(theirs, "*") == 0);
 }
 
-/* Both write a channel, and neither a name nor what they do to channels says which is first. */
+/* Both write a channel, and neither a name nor access to channels defines their order. */
 static bool undecided(const mps_model_ops *a, const mps_verb *v, const mps_model_ops *b,
                       const mps_verb *w)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Numbers of a model that belong to no particle: kept from step to step, in checkpoints, brought back
- * after a failed step, gone with the model. */
+/* Numbers of a model that belong to no particle: kept from step to step, in checkpoints, restored
+ * after a failed step, removed with the model. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 #include "model_fixture.h"

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The table of a model: what is refused when it is registered, values of settings, and the state
- * that it makes or is given. */
+/* The table of a model: refusals at registration, values of settings, and its state, created or
+ * passed by the caller. */
 #include "model_fixture.h"
 #include <stdlib.h>
 
@@ -321,7 +321,7 @@ static void user_and_create(void **state)
         }
 }
 
-/* No memory: nothing is switched on, and what the slot held stays. */
+/* No memory: no model is activated, and the slot keeps its model. */
 static void create_fails(void **state)
 {
     (void)state;

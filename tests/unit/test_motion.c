@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Kinematics of the tank: built-in motions, splines, rotations against finite differences, refusals. */
+/* Kinematics of the tank: built-in motions, splines, rotations against finite differences,
+ * refusals. */
 #include "sim.h"
 #include "tank_fixture.h"
 
@@ -34,7 +35,8 @@ static void harmonics_are_exact(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Largest errors of value, rate and acceleration of a table of sin 2 pi t with `rows` rows in [0, 1]. */
+/* Largest errors of value, rate and acceleration of a table of sin 2 pi t with `rows` rows in [0,
+ * 1]. */
 static void sine_table(int64_t rows, double error[3])
 {
     double t[512], y[512];
@@ -73,7 +75,8 @@ static void spline_converges(void **state)
     assert_true(fine[0] < 1e-5 && fine[1] < 2e-3 && fine[2] < 0.2);
 }
 
-/* Rates are the derivative of what is interpolated, and all of it is continuous, on a rough uneven table. */
+/* Rates are the derivative of what is interpolated, and all of it is continuous, on a rough uneven
+ * table. */
 static void spline_is_c2(void **state)
 {
     (void)state;
@@ -119,7 +122,8 @@ static int tumble(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* Velocity and acceleration of a point are the derivatives of its path; the map is rigid and can be undone. */
+/* Velocity and acceleration of a point are the derivatives of its path; the map is rigid and can be
+ * undone. */
 static void point_follows_its_path(void **state)
 {
     (void)state;
@@ -205,7 +209,7 @@ static void contents_are_carried(void **state)
         ASSERT_NEAR(s->x[2 * i], x[0], 1e-15);
         ASSERT_NEAR(s->x[2 * i + 1], x[1], 1e-15);
     }
-    /* clear: the pose stays, the velocity goes */
+    /* clear: the pose remains, the velocity becomes 0 */
     memcpy(before, s->x, (size_t)s->n * 2 * sizeof(double));
     ASSERT_OK(sim, mps_motion_clear(sim));
     assert_memory_equal(before, s->x, (size_t)s->n * 2 * sizeof(double));
@@ -256,7 +260,8 @@ static void beyond_the_table(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A motion at other times is that of the steps; none is known of a tank that stands or that a body carries. */
+/* A motion at other times is that of the steps; it is unknown for a tank at rest or with a rigid
+ * body. */
 static void at_other_times(void **state)
 {
     (void)state;
@@ -349,7 +354,7 @@ static void harmonic_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Places that overflow: the tank keeps its motion, and the particles their places. */
+/* Overflow of positions: the tank keeps its motion, and the particles their positions. */
 static void far_away(void **state)
 {
     (void)state;
@@ -426,7 +431,7 @@ static void other_refusals(void **state)
     mps_sim_destroy(sim);
 }
 
-/* In 2-D the tank turns counterclockwise about its centre; there is no other rotation. */
+/* In 2-D the tank rotates counterclockwise about its centre; there is no other rotation. */
 static void turns_the_plane(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Harmonics that grow over a ramp: derivatives, ends of the ramp, refusals, and the pressures with which a tank starts. */
+/* Harmonics with a ramp: derivatives, ends of the ramp, refusals, and the initial pressures of a
+ * tank. */
 #include "sim.h"
 #include "tank_fixture.h"
 
@@ -26,7 +27,8 @@ static const mps_harmonic list[] = {{MPS_MOVE_X, 0, 0.02, 6.469, 0, 1.3},
                                     {MPS_MOVE_X, 1, 0.1, 5, 0, 2}};
 enum { LIST = sizeof list / sizeof list[0] };
 
-/* Rate and acceleration are the derivatives of the position, before, at and after the end of the ramp. */
+/* Rate and acceleration are the derivatives of the position, before, at and after the end of the
+ * ramp. */
 static void exact_derivatives(void **state)
 {
     (void)state;
@@ -45,7 +47,8 @@ static void exact_derivatives(void **state)
     }
 }
 
-/* The tank begins at rest in its place, without acceleration; from the end of the ramp on it moves as without one. */
+/* The tank starts at rest in its initial pose, without acceleration; after the ramp it moves as
+ * without one. */
 static void continuous_at_both_ends(void **state)
 {
     (void)state;
@@ -108,7 +111,8 @@ static void pressures_of_start(double ramp, double range[2])
     mps_sim_destroy(sim);
 }
 
-/* A sine starts with a blow on both end walls; grown over a period pressures stay within 20 % of the pressure at rest. */
+/* A sine starts with a blow on both end walls; grown over a period pressures stay within 20 % of
+ * the pressure at rest. */
 static void starts_without_a_blow(void **state)
 {
     (void)state;

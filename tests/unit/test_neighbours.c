@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Neighbour lists against a double loop, for clouds of every shape; the skin; what is refused. */
+/* Neighbour lists against a double loop, for various sets of particles; the skin; refusals. */
 #include "cloud.h"
 #include "neighbours.h"
 #include <setjmp.h>
@@ -9,7 +9,7 @@
 
 static const double near_radius = 2.1 * CLOUD_DP, far_radius = 3.1 * CLOUD_DP;
 
-/* ---- an allocator that counts the bytes it gave ------------------------------------------------------------------ */
+/* ---- an allocator that counts allocated bytes ---------------------------------------------- */
 
 typedef struct meter {
     size_t live, most;
@@ -39,9 +39,9 @@ static mps_allocator meter_allocator(meter *m)
     return (mps_allocator){meter_alloc, meter_release, m};
 }
 
-/* ---- the double loop -------------------------------------------------------------------------------------------- */
+/* ---- the double loop ------------------------------------------------------------------------- */
 
-/* Row i holds exactly the others within `re`, but not those at the same place. */
+/* Row i contains exactly the other particles within `re`, except those at the same position. */
 static void check_row(const cloud *c, const mps_stencil *t, int64_t i, double re)
 {
     int64_t k = t->begin[i];
@@ -95,7 +95,7 @@ static void check_cloud(cloud c)
     cloud_free(&c);
 }
 
-/* Everything uniform in a box, except clumps: some cells hold many particles, most none. */
+/* Everything uniform in a box, except clumps: some cells contain many particles, most none. */
 static cloud clustered(int32_t dim, int64_t n, uint64_t seed)
 {
     cloud c = cloud_empty(dim, n);
@@ -134,7 +134,8 @@ static void far_from_origin(void **state)
     }
 }
 
-/* One particle a million spacings away costs neither memory nor time; one that no cell number reaches is refused. */
+/* One particle a million spacings away costs neither memory nor time; one that no cell number
+ * reaches is refused. */
 static void far_particle(void **state)
 {
     (void)state;
@@ -166,7 +167,7 @@ static void far_particle(void **state)
     }
 }
 
-/* Particles at one place are no pair (they have no direction), but keep all others. */
+/* Particles at the same position are no pair (without a direction), but have all other pairs. */
 static void coincident(void **state)
 {
     (void)state;
@@ -176,7 +177,8 @@ static void coincident(void **state)
     check_cloud(c);
 }
 
-/* A block of particles all at the origin (an array that was not filled) is an error, not n^2 pairs. */
+/* A block of particles all at the origin (an array that was not filled) is an error, not n^2
+ * pairs. */
 static void crowd(void **state)
 {
     (void)state;
@@ -230,7 +232,7 @@ static void rebuild(void **state)
     mps_neighbours_destroy(list);
 }
 
-/* As many particles as before, but more pairs than there was room for, or fewer. */
+/* The same number of particles, but more pairs than the capacity, or fewer. */
 static void pairs_come_and_go(void **state)
 {
     (void)state;
@@ -248,7 +250,7 @@ static void pairs_come_and_go(void **state)
     mps_neighbours_destroy(list);
 }
 
-/* Rows of more than a thousand neighbours beside short ones. */
+/* Rows of more than a thousand neighbours together with short ones. */
 static void long_rows(void **state)
 {
     (void)state;
@@ -277,7 +279,7 @@ static void long_rows(void **state)
     cloud_free(&c);
 }
 
-/* ---- kinds ------------------------------------------------------------------------------------------------------ */
+/* ---- kinds ----------------------------------------------------------------------------------- */
 
 /* Fluid over a wall over dummies, row by row of a lattice. */
 static int32_t kind_at(double y)
@@ -285,7 +287,8 @@ static int32_t kind_at(double y)
     return y > 6.5 * CLOUD_DP ? MPS_FLUID : y > 5.5 * CLOUD_DP ? MPS_WALL : MPS_DUMMY;
 }
 
-/* Without kinds all rows; with them none of solids without fluid in reach, and of dummies only on demand. */
+/* Without kinds all rows; with them none of solids without fluid in reach, and of dummies only on
+ * demand. */
 static void rows_of_kinds(void **state)
 {
     (void)state;
@@ -362,9 +365,9 @@ static void bad_arguments(void **state)
     mps_neighbours_destroy(NULL);
 }
 
-/* ---- the skin --------------------------------------------------------------------------------------------------- */
+/* ---- the skin -------------------------------------------------------------------------------- */
 
-/* Within half a skin the old candidates give the exact rows of the new positions. */
+/* Within half a skin the previous candidates give the exact rows of the new positions. */
 static void skin_rows(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps/numbers.h: errors against the C library, values at zeros, infinities and NaN, symmetries, and the bytes, which are the same with each
- * compiler and option as long as no product is fused with a sum. */
+/* mps/numbers.h: errors against the C library, values at zeros, infinities and NaN, symmetries, and
+ * the bytes, which are the same with each compiler and option as long as no product is fused with a
+ * sum. */
 #include "numbers_fixture.h"
 
 enum { COUNT = 1000000 };
@@ -138,7 +139,8 @@ static void add(uint64_t *hash, double value)
             UINT64_C(1099511628211); /* FNV-1a, a word at a time */
 }
 
-/* The bits of results at arguments that are always the same. A new one is right only if the functions were changed on purpose. */
+/* The bits of results at arguments that are always the same. A new one is right only if the
+ * functions were changed on purpose. */
 static void bytes(void **state)
 {
     (void)state;

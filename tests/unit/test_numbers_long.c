@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Errors of the functions of mps/numbers.h at many more arguments than test_numbers.c looks at. */
+/* Errors of the functions of mps/numbers.h at many more arguments than in test_numbers.c. */
 #include "numbers_fixture.h"
 
 enum { COUNT = 10000000 };

@@ -93,7 +93,7 @@ static void bench_run(bench *s, const mps_stencil *t)
     assert_int_equal(mps_op_volume_sum(t, s->f, s->result[VOLUME_SUM]), MPS_OK);
 }
 
-/* ---- the oracle ------------------------------------------------------------------------------------------------ */
+/* ---- the oracle ------------------------------------------------------------------------------ */
 
 typedef struct total {
     double sum[3], largest;
@@ -225,7 +225,7 @@ static void oracle_3d(void **state)
     check_cloud(cloud_lattice(3, 12, 11, 12, 0.3, 2));
 }
 
-/* ---- correction matrix ------------------------------------------------------------------------------------------ */
+/* ---- correction matrix ----------------------------------------------------------------------- */
 
 /* M of one particle by the double loop. */
 static void moment(const cloud *c, int64_t i, double re, double n0, double m[9])
@@ -254,7 +254,8 @@ static double identity_error(int dim, const double *b, const double *m)
     return worst;
 }
 
-/* B M = 1 in a cloud whose every particle has neighbours on all sides but the outer ones, down to the smallest floor. */
+/* B M = 1 in a cloud whose every particle has neighbours on all sides but the outer ones, down to
+ * the smallest floor. */
 static void check_correction(cloud c)
 {
     const double re = 2.1 * CLOUD_DP;
@@ -284,7 +285,8 @@ static void correction_inverts(void **state)
     check_correction(cloud_lattice(3, 9, 9, 9, 0.25, 4));
 }
 
-/* On a line M has one eigenvalue of the line and zeros across it: those become the floor, and only those. */
+/* On a line M has one eigenvalue of the line and zeros across it: those become the floor, and only
+ * those. */
 static void correction_floor(void **state)
 {
     (void)state;

@@ -2,7 +2,7 @@
 /* Operators: kernels, refused arguments, particles without neighbours, a stretched lattice. */
 #include "operator_fixture.h"
 
-/* ---- kernels and bad arguments ---------------------------------------------------------------------------------- */
+/* ---- kernels and bad arguments --------------------------------------------------------------- */
 
 static double negative_kernel(void *user, double r, double re)
 {
@@ -91,7 +91,7 @@ static void refuse_all(const mps_stencil *t, const double *in, double *out)
             fail_msg("\"%s\" does not mention \"%s\"", mps_neighbours_error(list), (word)); \
     } while (0)
 
-/* The list tells which argument of an operator is wrong, and what is allowed. */
+/* The error text of the list names the invalid argument of an operator, and what is allowed. */
 static void refuse_told(mps_neighbours *list, const mps_stencil *t, const double *in, double *out)
 {
     mps_stencil bad;
@@ -189,8 +189,8 @@ static void lone_particles(void **state)
     mps_neighbours_destroy(list);
 }
 
-/* An area-preserving stretch by 10 %, as in every steep crest: n takes it for more than 1 % of compression, the volume
- * measure must not see a tenth of that. */
+/* An area-preserving stretch by 10 %, as in every steep crest: n takes it for more than 1 % of
+ * compression, the volume measure must not see a tenth of that. */
 static void stretched_lattice(void **state)
 {
     (void)state;

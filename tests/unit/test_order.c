@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The bytes and texts of a run depend on the particles and their ids, not on where they stood in memory before a search. */
+/* The bytes and texts of a run depend on the particles and their ids, not on their order in memory
+ * before a search. */
 #include "sim.h"
 #include "cloud.h"
 #include "phase_fixture.h"
@@ -37,7 +38,8 @@ static mps_sim *tank_of(const scene *c)
     return sim;
 }
 
-/* Put the particles into another order, as another history would have left them, or leave them where they are. The next step searches. */
+/* Permute the particles, as after another history, or keep their order. The next step searches
+ * neighbours. */
 static void new_history(mps_sim *sim, bool shuffle, uint64_t *seed)
 {
     mps__particles *s = &sim->world.particles;
@@ -63,7 +65,7 @@ static void same_particles(mps_sim *a, mps_sim *b)
     }
 }
 
-/* Energies are also summed where the particles stand before a search. */
+/* Energies are also summed in the order before a search. */
 static void same_energies(mps_sim *a, mps_sim *b)
 {
     mps_energy e = {.struct_size = sizeof e}, f = {.struct_size = sizeof f};
@@ -100,7 +102,8 @@ static void history_of_store(void **state)
     }
 }
 
-/* Within a cell particles stand by id, so that the order does not depend on where they stood, nor on the box of all particles. */
+/* Within a cell particles are sorted by id, so that the order does not depend on the previous
+ * order, nor on the bounding box of all particles. */
 static void order_of_ties(void **state)
 {
     (void)state;
@@ -192,7 +195,7 @@ static void areas_of_walls(void **state)
     mps_sim_destroy(mixed);
 }
 
-/* The text about lost particles names the least id, wherever the particles stand. */
+/* The text about lost particles contains the smallest id, in any order of the particles. */
 static void least_id_is_named(void **state)
 {
     static const scene plain = {"imps", 2, false, false};
@@ -201,7 +204,7 @@ static void least_id_is_named(void **state)
         mps_sim *sim = tank_of(&plain);
         mps__particles *s = &sim->world.particles;
         char word[40];
-        int64_t lost[2] = {0}, found = 0; /* places, by ascending ids */
+        int64_t lost[2] = {0}, found = 0; /* positions, by ascending ids */
         sim->world.setup.lost_policy = MPS_LOST_ERROR;
         for (int64_t i = 0; i < s->n && found < 2; i++)
             if (s->kind[i] == MPS_FLUID) lost[found++] = i;

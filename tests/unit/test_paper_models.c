@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Models of the papers, recomputed particle by particle from what they read: surface.original, wall.extrapolate. */
+/* Models of the papers, recomputed particle by particle from their inputs: surface.original,
+ * wall.extrapolate. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 #include <stdbool.h>
@@ -75,7 +76,7 @@ static const mps_verb region_verb = {.hook = MPS_CLASSIFY,
                                     .after = "*",
                                     .run = look_at_dummies};
 
-/* Steps of a column in a tank with the model, which the verb looks at. */
+/* Steps of a column in a tank with the model, which the verb checks. */
 static void run_with(const char *preset, const char *model, const char *slot, double setting,
                      const mps_verb *verb)
 {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Parts of a loop run once each, sums do not depend on threads, and a handle runs on its own threads or its host's. */
+/* Parts of a loop run once each, sums do not depend on threads, and a handle runs on its own
+ * threads or those of the application. */
 #include "loop.h"
 #include "sim.h"
 #include "tank_fixture.h"
@@ -20,7 +21,7 @@ static void make_pool(mps__pool *p, int32_t threads)
     mps__pool_resize(p, threads);
 }
 
-/* ---- parts ---------------------------------------------------------------------------------------------------------- */
+/* ---- parts ----------------------------------------------------------------------------------- */
 
 typedef struct tally {
     atomic_int called[MOST_PARTS];
@@ -66,7 +67,7 @@ static void each_part_once(void **state)
     check_tally(&t, 5, 1);
 }
 
-/* Rounds that come while threads are still awake, and after they fell asleep. */
+/* Loops while threads still spin, and after they sleep. */
 static void after_a_pause(void **state)
 {
     (void)state;
@@ -150,7 +151,8 @@ static void no_threads(void **state)
     skip(); /* the sanitizers need the address space that this test takes away */
 }
 #else
-/* Without room for another stack loops run in the calling thread. First of all tests: the system keeps stacks of ended threads. */
+/* Without memory for another stack loops run in the calling thread. Must be the first test: the
+ * system keeps stacks of ended threads. */
 static void no_threads(void **state)
 {
     (void)state;
@@ -161,7 +163,7 @@ static void no_threads(void **state)
     tight = before;
     tight.rlim_cur = 1 << 20;
     make_pool(&pool, 4);
-    free(malloc(1 << 16)); /* the pool's own memory is there */
+    free(malloc(1 << 16)); /* the memory of the pool is allocated */
     assert_int_equal(setrlimit(RLIMIT_AS, &tight), 0);
     for (int k = 0; k < 3; k++) mps_parallel_run(&pool.parallel, 9, count_part, &t);
     assert_int_equal(setrlimit(RLIMIT_AS, &before), 0);
@@ -170,7 +172,7 @@ static void no_threads(void **state)
 }
 #endif
 
-/* ---- rows and sums -------------------------------------------------------------------------------------------------- */
+/* ---- rows and sums --------------------------------------------------------------------------- */
 
 static void mark_rows(void *argument, int64_t begin, int64_t end)
 {
@@ -245,9 +247,9 @@ static void rows_and_sums(void **state)
     free(marks);
 }
 
-/* ---- handles -------------------------------------------------------------------------------------------------------- */
+/* ---- handles --------------------------------------------------------------------------------- */
 
-/* A host's parallel-for: parts in falling order, in the calling thread. */
+/* A parallel-for of the application: parts in descending order, in the calling thread. */
 static void run_backwards(void *user, int32_t parts, mps_part_fn body, void *argument)
 {
     ++*(int64_t *)user;
@@ -308,7 +310,7 @@ static void host_and_pool_agree(void **state)
     assert_same_state(one, four);
     assert_same_state(one, hosted);
     const int64_t before = calls;
-    ASSERT_OK(hosted, mps_threads_set(hosted, 1)); /* one part: nothing to ask the host for */
+    ASSERT_OK(hosted, mps_threads_set(hosted, 1)); /* one part: no call of the application */
     ASSERT_OK(hosted, mps_step(hosted, 1e-3, NULL));
     assert_int_equal(calls, before);
     ASSERT_OK(one, mps_step(one, 1e-3, NULL));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Particles through the public interface: add, remove, ids, and everything that is refused. */
+/* Particles through the public interface: add, remove, ids, and all refusals. */
 #include "particle_fixture.h"
 
-/* ---- add ------------------------------------------------------------------------------------------------------------ */
+/* ---- add ------------------------------------------------------------------------------------- */
 
 static void add_and_read(void **state)
 {
@@ -104,7 +104,8 @@ static void overlap_refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* An array that was not filled: all particles at the origin. A clear error, without much time or memory. */
+/* An array that was not filled: all particles at the origin. A clear error, without much time or
+ * memory. */
 static void crowd_refused(void **state)
 {
     (void)state;
@@ -120,7 +121,7 @@ static void crowd_refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The two faces of a thin plate may be at one place. */
+/* The two faces of a thin plate may be at the same position. */
 static void coincident_walls(void **state)
 {
     (void)state;
@@ -133,7 +134,7 @@ static void coincident_walls(void **state)
     mps_sim_destroy(sim);
 }
 
-/* ---- remove ----------------------------------------------------------------------------------------------------------- */
+/* ---- remove ---------------------------------------------------------------------------------- */
 
 static void remove_by_id(void **state)
 {
@@ -154,7 +155,7 @@ static void remove_by_id(void **state)
     int64_t id = -1;
     const mps_particle_block b = block_of(1, x);
     ASSERT_OK(sim, mps_particles_add(sim, &b, &id));
-    assert_int_equal(id, n); /* ids never come back */
+    assert_int_equal(id, n); /* ids are never reused */
     mps_sim_destroy(sim);
 }
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What a program asks for beside steps takes no memory in proportion to the particles beyond that of the steps: stencils, probes, frames,
- * checkpoints. Counted by the allocator of the handle. */
+/* Peak memory: stencils, probes, frames and checkpoints need no memory proportional to the number
+ * of particles beyond that of the steps. Counted by the allocator of the handle. */
 #include "tank_fixture.h"
 #include <stdbool.h>
 #include <stdio.h>
@@ -16,7 +16,7 @@ typedef struct memory {
 static void *take(void *user, size_t size)
 {
     memory *m = user;
-    char *block = malloc(size + BEFORE); /* the size stands before the block */
+    char *block = malloc(size + BEFORE); /* the size is stored before the block */
     if (!block) return NULL;
     *(size_t *)(void *)block = size;
     m->held += size;
@@ -110,14 +110,14 @@ static void outputs_take_none(void **state)
         const double dp = dim == 2 ? 0.005 : 0.02, steps = bytes_of_run(dim, dp, false, *state),
                      all = bytes_of_run(dim, dp, true, *state);
         print_message("%d-D: %.0f bytes a particle, with outputs %.0f\n", dim, steps, all);
-        assert_true(all <= steps + 40); /* a gauge collects the particles beside its line */
-#ifndef MPS_CHECKED /* whose guard keeps copies, and whose calls do not share memory */
+        assert_true(all <= steps + 40); /* a gauge collects the particles near its line */
+#ifndef MPS_CHECKED /* whose guard keeps copies, and whose passes do not share memory */
         assert_true(all <= most[dim - 2]);
 #endif
     }
 }
 
-/* A stencil that is asked for after each step is not kept for the next one. */
+/* A stencil requested after each step is not kept for the next one. */
 static void stencils_of_each_step(void **state)
 {
     (void)state;

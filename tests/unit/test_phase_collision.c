@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* collision.pair: phases of very different density (momentum, order of particles), edges of thin plates, corners
- * of tanks and between solids. */
+/* collision.pair: phases of very different density (momentum, order of particles), edges of thin
+ * plates, corners of tanks and between solids. */
 #include "phase_fixture.h"
 
 static const double rho[2] = {1000, 1};
@@ -93,7 +93,8 @@ static void any_spacing(void **state)
     }
 }
 
-/* Velocity after a step with collisions alone of a drop at `x` [dp] from the upper edge of a plate of one column. */
+/* Velocity after a step with collisions alone of a drop at `x` [dp] from the upper edge of a plate
+ * of one column. */
 static void after_edge(int dim, const double *x, const double *u, double *v)
 {
     const double dp = CLOUD_DP, lo[3] = {10 * dp, 0, 0}, hi[3] = {10 * dp, 6 * dp, 8 * dp};
@@ -117,7 +118,8 @@ static void after_edge(int dim, const double *x, const double *u, double *v)
     mps_sim_destroy(sim);
 }
 
-/* The edge of a thin plate is a round post: what approaches along the line to it is lost, the rest stays. */
+/* The edge of a thin plate is a round post: what approaches along the line to it is lost, the rest
+ * stays. */
 static void edge_is_a_post(void **state)
 {
     (void)state;
@@ -139,9 +141,10 @@ static void edge_is_a_post(void **state)
     }
 }
 
-/* A corner of a tank, or of a tank and a solid, with collisions alone: the box of the solid, if it has a size, and a point in the corner
- * [dp], whose component along axis d grows into the liquid by side[d]; 0: the corner is alike along that axis. A plate, if there is one, goes
- * from lo[] by plate[]. */
+/* A corner of a tank, or of a tank and a solid, with collisions alone: the box of the solid, if it
+ * has a size, and a point in the corner [dp], whose component along axis d increases into the
+ * liquid by side[d]; 0: the corner is uniform along this axis. A plate, if any, extends from lo[]
+ * by plate[]. */
 typedef struct corner {
     int dim;
     double lo[3], hi[3], at[3], side[3], plate[2];
@@ -211,7 +214,8 @@ static double thrown(mps_sim *sim, const corner *c, const double *x, const doubl
     return deepest;
 }
 
-/* From many places near the corner, in all directions into it, faster along one face than along the others. */
+/* From many positions near the corner, in all directions into it, faster along one face than along
+ * the others. */
 static void stays_out(const corner *c, int throws)
 {
     mps_sim *sim = corner_sim(c);
@@ -232,7 +236,8 @@ static void stays_out(const corner *c, int throws)
     mps_sim_destroy(sim);
 }
 
-/* Particles that a solid shares with the tank have the tank's normal; the solid keeps drops out there too. */
+/* Common particles of a solid and the tank have the normal of the tank; the solid also repels
+ * droplets there. */
 static void corners_are_closed(void **state)
 {
     (void)state;
@@ -255,7 +260,7 @@ static void corners_are_closed(void **state)
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 40);
 }
 
-/* The edges of a tank have one normal, aslant; the faces that meet there keep drops in all the same. */
+/* The edges of a tank have one inclined normal; the adjacent faces repel droplets nevertheless. */
 static void edges_are_closed(void **state)
 {
     (void)state;
@@ -268,7 +273,8 @@ static void edges_are_closed(void **state)
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
 }
 
-/* A plate that stands askew on a wall has no particles there, and hides those of the wall from one side. */
+/* An inclined plate attached to a wall has no particles there, and occludes those of the wall from
+ * one side. */
 static void feet_are_closed(void **state)
 {
     (void)state;
@@ -284,8 +290,8 @@ static void feet_are_closed(void **state)
     for (size_t k = 0; k < sizeof c / sizeof c[0]; k++) stays_out(&c[k], c[k].dim == 2 ? 200 : 100);
 }
 
-/* A drop that falls on a flat floor stops within half a spacing of it, wherever the wall particles are: over one of them, between two, amid
- * four. */
+/* A drop that falls on a flat floor stops within half a spacing of it, wherever the wall particles
+ * are: over one of them, between two, amid four. */
 static void floor_stops_drops(void **state)
 {
     (void)state;
@@ -313,7 +319,8 @@ static void floor_stops_drops(void **state)
         }
 }
 
-/* Liquid squeezed against the floor, with the shift alone, whose velocities are along the floor: what is within 0.5 dp of it does not sink. */
+/* Liquid squeezed against the floor, with the shift alone, whose velocities are along the floor:
+ * what is within 0.5 dp of it does not sink. */
 static void shift_keeps_off(void **state)
 {
     (void)state;
@@ -354,7 +361,8 @@ static void shift_keeps_off(void **state)
     }
 }
 
-/* A drop that came over the rim lies in the plane of a wall: it comes out by 0.05 dp a step until it is 0.25 dp off, and gains no speed. */
+/* A droplet that came over the top edge is in the plane of a wall: it is moved out by 0.05 dp per
+ * step up to 0.25 dp, and gains no speed. */
 static void out_of_the_wall(void **state)
 {
     (void)state;

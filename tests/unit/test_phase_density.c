@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* density.smooth, gradient.density and the models of a compressible phase against their equations. */
+/* density.smooth, gradient.density and the models of a compressible phase against their
+ * equations. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
@@ -88,7 +89,8 @@ static void smoothing(void **state)
     }
 }
 
-/* A kernel that is infinite at 0: a particle's own density has the weight of one half a spacing away. */
+/* A kernel that is infinite at 0: a particle's own density has the weight of one half a spacing
+ * away. */
 static void smoothing_by_original_kernel(void **state)
 {
     (void)state;
@@ -102,7 +104,7 @@ static void smoothing_by_original_kernel(void **state)
     block_free(&b);
 }
 
-/* ---- gradient.density --------------------------------------------------------------------------------------------------- */
+/* ---- gradient.density ------------------------------------------------------------------------ */
 
 static double wavy(const double *x, int dim)
 {
@@ -158,7 +160,8 @@ static void gradient_to_the_letter(void **state)
         }
 }
 
-/* Amid a lattice, between walls and dummies too, a linear pressure gives its slope over rho: the second sum vanishes. */
+/* Inside a lattice, also between walls and dummies, a linear pressure gives its gradient over rho:
+ * the second sum vanishes. */
 static void gradient_of_linear(void **state)
 {
     (void)state;
@@ -166,8 +169,7 @@ static void gradient_of_linear(void **state)
     for (int dim = 2; dim <= 3; dim++) {
         const double dp = 0.05, lo[3] = {0}, hi[3] = {0.4, 0.4, 0.4};
         mps_sim *sim = bare_sim(dim, dp, 3.1, 1e-6);
-        set_phase(sim, 0, 1.2,
-                  0); /* of the solids: no model of walls gives them that of the fluid */
+        set_phase(sim, 0, 1.2, 0); /* density of the solids: no wall model sets that of the fluid */
         set_phase(sim, 1, 1.2, 0);
         add_tank(sim, 0.4, 0.4, 0.4);
         ASSERT_OK(sim, mps_fill_box_add(sim, 1, lo, hi, NULL, NULL));
@@ -192,7 +194,7 @@ static void gradient_of_linear(void **state)
     }
 }
 
-/* ---- gas ----------------------------------------------------------------------------------------------------------------- */
+/* ---- gas ------------------------------------------------------------------------------------- */
 
 static const double cs = 340, dt = 1e-4, swollen = 1e-3, ambient = 1e5, exponent = 1.4;
 
@@ -226,7 +228,8 @@ static double wanted_deviation(bool law, double p)
     return law ? pow(1 + p / ambient, 1 / exponent) - 1 : p / (rho[1] * cs * cs);
 }
 
-/* Only the gas has terms: those of W22 (26) over rho, less the old pressure; and its deviations are those from the law. */
+/* Only the gas has terms: those of W22 (26) over rho, less the old pressure; and its deviations are
+ * those from the law. */
 static void gas_terms(void **state)
 {
     (void)state;
@@ -259,7 +262,8 @@ static void gas_terms(void **state)
     }
 }
 
-/* At rest the pressure is that of the equation of state, whatever source there is and whatever its weight; as printed gamma (0.1) times that. */
+/* At rest the pressure is that of the equation of state, for any source and weight; with the
+ * printed equation gamma (0.1) times it. */
 static void equation_of_state(void **state)
 {
     (void)state;
@@ -268,12 +272,12 @@ static void equation_of_state(void **state)
         const bool mixed = kind % 2, printed = kind >= 4;
         if (printed && !mixed) continue;
         mps_sim *sim = gas(models[kind / 2]);
-        const double strain = kind / 2 == 1 ? 0.05
-                                            : swollen; /* beyond what a linear law would give */
+        const double strain = kind / 2 == 1 ? 0.05 : swollen; /* larger than by a linear law */
         mps_solver_limits limits;
         assert_int_equal(mps_solver_limits_init(&limits, sizeof limits), MPS_OK);
         limits.tolerance =
-            1e-10; /* the right side is mostly the old pressure: its last changes are small against it */
+            1e-10; /* the right side is mostly the old pressure: its last changes are small against
+                      it */
         ASSERT_OK(sim, mps_solver_limits_set(sim, &limits));
         ASSERT_OK(sim, mps_model_use(sim, mixed ? "source.mixed" : "source.volume"));
         ASSERT_OK(sim, mps_model_set(sim, "source", mixed ? "gamma" : "tau", 0.1));
@@ -296,8 +300,9 @@ static void equation_of_state(void **state)
     }
 }
 
-/* In a closed tank the sources of all rows cancel, at the expense of the gas but for 0.005 g/dp in each row; the gas returns to the pressures at which it has its
- * volume; not so if one row is fixed. */
+/* In a closed tank the sources of all rows cancel, at the expense of the gas but for 0.005 g/dp in
+ * each row; the gas returns to the pressures at which it has its volume; not so if one row is
+ * fixed. */
 static void conserved(void **state)
 {
     (void)state;
@@ -323,7 +328,7 @@ static void conserved(void **state)
             spy.given_rhs = 0;
             ASSERT_OK(sim, mps_lease_begin(sim, "pressure", MPS_WRITE, &p));
             for (int64_t i = 0; i < p.count; i++)
-                p.data[i] = 5000; /* compressed beyond what the tank can hold it to */
+                p.data[i] = 5000; /* compressed more than the tank allows */
             ASSERT_OK(sim, mps_lease_end(sim, &p));
             for (int k = 0; k < 150; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
             for (int64_t i = 72; i < 144; i++) ASSERT_NEAR(spy.p[i], 0, 1);
@@ -380,8 +385,8 @@ static int keep_distance(mps_stage *s)
     return 0;
 }
 
-/* Distance [dp] of a heavy particle from the interface, with two light ones at an angle whose cosine
- * is `alignment` from the x axis, 1.2 dp away. */
+/* Distance [dp] of a heavy particle from the interface, with two light ones at an angle whose
+ * cosine is `alignment` from the x axis, 1.2 dp away. */
 static double distance_between_two(double alignment)
 {
     static const mps_use uses[] = {{"interface_distance", MPS_USE_READ}};

@@ -36,7 +36,8 @@ static double left_over(int dim, double distance, double speed, const int32_t ph
     return left;
 }
 
-/* 1 - dt 2 dp 2(D+2)/n0 nu W/r^2, with nu = alpha U_g - D mean(mu/rho)/dp, not below 0, + beta u_n, at most 0.15 dp/dt, nearer than dp less by (r/dp)^3. */
+/* 1 - dt 2 dp 2(D+2)/n0 nu W/r^2, with nu = alpha U_g - D mean(mu/rho)/dp, not below 0, + beta u_n,
+ * at most 0.15 dp/dt, nearer than dp less by (r/dp)^3. */
 static double wanted(int dim, double distance, double speed, const int32_t phase[2])
 {
     const double r = distance * CLOUD_DP, re = 2.1 * CLOUD_DP;
@@ -71,7 +72,7 @@ static void approaching(void **state)
             }
 }
 
-/* The viscosity of the liquid takes the place of alpha: a third of it, all of it. */
+/* The viscosity of the liquid replaces alpha: one third of it, all of it. */
 static void yields_to_viscosity(void **state)
 {
     (void)state;
@@ -88,7 +89,8 @@ static void yields_to_viscosity(void **state)
         }
 }
 
-/* Two blocks run into each other, faster than the limit, with noise: momentum stays and the energy does not grow. */
+/* Two blocks run into each other, faster than the limit, with noise: momentum stays and the energy
+ * does not grow. */
 static void momentum(void **state)
 {
     (void)state;

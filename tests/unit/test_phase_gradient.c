@@ -4,7 +4,7 @@
 
 static const double rho = 800;
 
-/* All particles lie on the surface, and no moment matrix corrects them. */
+/* All particles are on the surface, and no moment matrix corrects them. */
 static int lay_region(mps_stage *s)
 {
     int32_t *region = s->data[0];
@@ -44,7 +44,8 @@ static double wavy(const double *x, int dim)
     return p;
 }
 
-/* D/n0 sum w d r of particle i, with d = (P_j - P_i)/rho, or 2 d - G_j.r with the G of all particles. */
+/* D/n0 sum w d r of particle i, with d = (P_j - P_i)/rho, or 2 d - G_j.r with the G of all
+ * particles. */
 static void gradient(const cloud *c, int64_t i, const double *first, double *g)
 {
     const int dim = c->dim;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* friction.history in simulations: free particles, on which only it and a given force act, against exact unsteady flow between two
- * plates; where the energy goes; a tank that turns. */
+/* friction.history in simulations: free particles, on which only it and a given force act, against
+ * exact unsteady flow between two plates; the energy balance; a rotating tank. */
 #include "phase_fixture.h"
 #include <complex.h>
 #include <mps/output.h>
@@ -9,7 +9,8 @@
 
 static const double PI = 3.14159265358979323846, NU = 5e-5, WIDTH = 0.062;
 
-/* Acceleration of the particles: amount cos(rate t), along x, as its mean over a step; and, where the tank turns, that of the tank. */
+/* Acceleration of the particles: amount cos(rate t), along x, as its mean over a step; and, if the
+ * tank rotates, that of the tank. */
 static struct {
     double amount, rate;
     bool with_tank;
@@ -85,7 +86,7 @@ static double complex pushed(double w, double t)
     return u;
 }
 
-/* The same of a first velocity 1, and the mean of its square. */
+/* Exact mean velocity for an initial velocity 1, and the mean of its square. */
 static double struck(double t, double *square)
 {
     double u = 0;
@@ -120,7 +121,8 @@ static void constant_force(void **state)
     }
 }
 
-/* A swinging force from rest on, with layers of 1/1 to 1/50 of the width: within 0.05 % of the largest velocity. */
+/* A swinging force from rest on, with layers of 1/1 to 1/50 of the width: within 0.05 % of the
+ * largest velocity. */
 static void swinging_force(void **state)
 {
     (void)state;
@@ -151,8 +153,8 @@ static mps_energy energy_of(mps_sim *sim)
     return e;
 }
 
-/* A uniform first velocity: the mean within 0.06 % of the first; its energy goes to the profile and to friction as in the exact flow, to
- * nothing else. */
+/* A uniform initial velocity: the mean within 0.06 % of the initial one; its energy goes to the
+ * profile and to friction as in the exact flow, and to nothing else. */
 static void impulse_and_energy(void **state)
 {
     (void)state;
@@ -182,7 +184,7 @@ static void impulse_and_energy(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What the walls give is reported: no momentum in other lines, and the part "sides" has the whole of it. */
+/* Wall friction is reported: no momentum in other lines, and the part "sides" has all of it. */
 static void momentum_and_probe(void **state)
 {
     (void)state;
@@ -222,8 +224,9 @@ static int turn(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* A tank that turns, with a force that keeps fluid at rest in it at rest. Fluid that moves in the tank feels the Coriolis acceleration:
- * in axes that turn by twice the tank's rate the other way the flow is that of a tank at rest. */
+/* A rotating tank, with a force that balances the centrifugal force. Fluid that moves in the tank
+ * has the Coriolis acceleration: in axes that rotate at twice the rate of the tank in the opposite
+ * direction, the flow is that of a tank at rest. */
 static void turning_tank(void **state)
 {
     (void)state;
@@ -264,7 +267,7 @@ static void turning_tank(void **state)
     }
 }
 
-/* A run that goes on from a checkpoint ends with the same bytes: velocities, energies, budget. */
+/* A run resumed from a checkpoint ends with the same bytes: velocities, energies, budget. */
 static void goes_on(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The modes of the layers at side walls alone, against exact unsteady flow between two plates. Width and viscosity are 1: times are
- * in width^2/nu. */
+/* Only the modes of the layers at side walls, against exact unsteady flow between two plates. Width
+ * and viscosity are 1: times are in width^2/nu. */
 #include <complex.h>
 #include <math.h>
 #include <stdarg.h>
@@ -29,7 +29,8 @@ static double complex exact_drag(double w)
                          : s * (1 / (1 - th / z) - 1);
 }
 
-/* The same of u = exp(i w t) in steps of dt, piecewise linear: mean over a step, over that of u. */
+/* Response to u = exp(i w t) in steps of dt, piecewise linear: mean over a step, divided by that of
+ * u. */
 static double complex stepped_drag(double w, double dt)
 {
     mps__layers l;
@@ -43,7 +44,8 @@ static double complex stepped_drag(double w, double dt)
     return a / (w * dt < 1e-6 ? 1 : du / (I * w * dt));
 }
 
-/* Real part: drag; imaginary part over w: added mass. From slow flow to layers of a thousandth of the width. */
+/* Real part: drag; imaginary part over w: added mass. From slow flow to layers of a thousandth of
+ * the width. */
 static void drag_and_added_mass(void **state)
 {
     (void)state;
@@ -60,8 +62,9 @@ static void drag_and_added_mass(void **state)
     assert_true(worst[0] < 0.0035 && worst[1] < 0.0035);
 }
 
-/* What a wall lacks at a far radius of 3.1 dp in 2-D, less the half space, solved from the rows of the lattice. It is a smaller part of the
- * stress the thicker the layer. Radii without a fit are refused. */
+/* What a wall lacks at a far radius of 3.1 dp in 2-D, less the half space, solved from the rows of
+ * the lattice. It is a smaller part of the stress the thicker the layer. Radii without a fit are
+ * refused. */
 static void thin_layer_of_wall(void **state)
 {
     (void)state;
@@ -86,7 +89,8 @@ static void thin_layer_of_wall(void **state)
     assert_false(mps__layers_of_wall(1, 3.1, 1, 1, 1e-3, &l));
 }
 
-/* Steady flow of velocity 1: friction 12, added mass 1/5, kinetic energy of the profile 1/10 more than that of the mean, 1/2. */
+/* Steady flow of velocity 1: friction 12, added mass 1/5, kinetic energy of the profile 1/10 more
+ * than that of the mean, 1/2. */
 static void slow_limits(void **state)
 {
     (void)state;
@@ -106,8 +110,8 @@ static void slow_limits(void **state)
     NEAR(creal(stepped_drag(1e-3, 1)), 12, 12 * 1e-4);
 }
 
-/* A lone velocity in steps; `force` and the first velocity are given. Returns the largest deviation from `exact` after ten steps, over
- * `size`. */
+/* A lone velocity in steps; `force` and the first velocity are given. Returns the largest deviation
+ * from `exact` after ten steps, over `size`. */
 static double march(double dt, int steps, double first, double force, double (*exact)(double t),
                     double size)
 {
@@ -153,7 +157,8 @@ static void force_and_impulse(void **state)
     }
 }
 
-/* A step takes at most what there is, however long it is, to 2e-4 of the first velocity: layers carry fluid on. */
+/* A step of any length removes at most the existing momentum, within 2e-4 of the initial velocity:
+ * layers drag fluid along. */
 static void long_steps(void **state)
 {
     (void)state;

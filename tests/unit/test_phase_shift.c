@@ -65,7 +65,7 @@ static double dot(int dim, const double *a, const double *b)
     return sum;
 }
 
-/* v less `share` of its part along n. */
+/* v minus `share` times its component along n. */
 static void remove_along(int dim, const double *n, double share, double *v)
 {
     const double n2 = dot(dim, n, n), along = dot(dim, n, v);
@@ -93,7 +93,7 @@ static double strain_and_mean(const mps_stage *s, int64_t i, double *mean)
     return most;
 }
 
-/* Sum W r over fluid of another density; the share of what is normal to it that goes. */
+/* Sum W r over fluid of another density; the fraction of the normal component that is removed. */
 static double interface_of(const mps_stage *s, int64_t i, double *n)
 {
     const double *rho = s->data[DENSITY];
@@ -213,8 +213,8 @@ static const mps_model_ops after_shift = {.struct_size = sizeof(mps_model_ops),
                                           .verb_count = 1,
                                           .verbs = after_verbs};
 
-/* A jittered block with a free surface on all sides, its lower half of another density, and drops
- * beside it; a step of the shift alone. */
+/* A jittered block with a free surface on all sides, its lower half of another density, and
+ * droplets near it; one step with shifting only. */
 static void shift_block(int dim, double ratio, double limit, double speed)
 {
     const int side = dim == 2 ? 14 : 8;

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* tension.csf: curvature of circles and spheres, flat interfaces, balance of forces, pressure inside a drop; tension.jump: the same pressure
- * with less motion. */
+/* tension.csf: curvature of circles and spheres, flat interfaces, balance of forces, pressure
+ * inside a droplet; tension.jump: the same pressure with less motion. */
 #include "phase_fixture.h"
 
 static const double sigma = 0.07;
 
-/* A drop of phase 1 in the middle of a block of phase 0; off: of its centre from the lattice [dp]. */
+/* A droplet of phase 1 in the middle of a block of phase 0; off: offset of its centre from the
+ * lattice [dp]. */
 typedef struct drop {
     cloud c;
     int32_t *phase;
@@ -42,8 +43,9 @@ static void drop_free(drop *s)
     free(s->phase);
 }
 
-/* The radial part of sum (force r) / sigma over the surface of the drop: (D-1) times its area, if kappa is (D-1)/r and <grad C> is
- * of unit strength across the interface. Also the net force over the sum of magnitudes. */
+/* The radial part of sum (force r) / sigma over the surface of the drop: (D-1) times its area, if
+ * kappa is (D-1)/r and <grad C> is of unit strength across the interface. Also the net force over
+ * the sum of magnitudes. */
 static double work_of_swelling(const drop *s, const double density[2], double *net)
 {
     const int dim = s->c.dim;
@@ -92,7 +94,8 @@ static void spheres(void **state)
     check_drop(3, 10, 0, 1, 0.03);
 }
 
-/* Both sides are accelerated alike, so nearly all of the force, twice the share of one side, is on the heavy one. */
+/* Both sides have the same acceleration, so almost all of the force, twice that of one side, acts
+ * on the heavy one. */
 static void heavy_drop(void **state)
 {
     (void)state;
@@ -192,7 +195,8 @@ static double curvature_by_differences(const drop *s, int64_t i, double reach)
     return kappa / pow(size2, 1.5);
 }
 
-/* The derivatives of f, particle by particle: a.<grad C> / |<grad C>|^2 gives kappa. Bounded ones are left out. */
+/* The derivatives of f, particle by particle: a.<grad C> / |<grad C>|^2 gives kappa. Bounded ones
+ * are omitted. */
 static void derivatives(void **state)
 {
     (void)state;
@@ -230,7 +234,7 @@ static void derivatives(void **state)
     }
 }
 
-/* The pressure equation turns the force into the jump sigma/R, higher inside. */
+/* The pressure equation balances the force by the jump sigma/R, higher inside. */
 static void laplace_pressure(void **state)
 {
     (void)state;
@@ -258,8 +262,8 @@ static void laplace_pressure(void **state)
     }
 }
 
-/* One step of a drop from rest with one curvature for both models: jump of the pressure over (D-1) sigma/R, and the root of the mean
- * of rho u^2. */
+/* One step of a drop from rest with one curvature for both models: jump of the pressure over (D-1)
+ * sigma/R, and the root of the mean of rho u^2. */
 static double step_from_rest(int dim, const char *model, double *motion)
 {
     static const double density[2] = {1, 1000};
@@ -349,7 +353,8 @@ static double share_of_sigma(const cloud *c, const double centre[2], double radi
     return work / (2 * 3.14159265358979323846 * radius);
 }
 
-/* Two drops of different phases: each has the tension of its own pair, and what is not set has the setting. */
+/* Two drops of different phases: each has the tension of its own pair, and what is not set has the
+ * setting. */
 static void pairs(void **state)
 {
     (void)state;

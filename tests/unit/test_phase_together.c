@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The models of several phases in one step: water below gas in a closed tank, with any number of threads. */
+/* The models of several phases in one step: water below gas in a closed tank, with any number of
+ * threads. */
 #include "phase_fixture.h"
 
 static const char *const models[] = {"wall.extrapolate", "density.smooth", "viscosity.pair",

@@ -35,8 +35,8 @@ static void means(void **state)
     }
 }
 
-/* Pairs lose no momentum, whatever the densities and the mean, and no moment of momentum if they
- * act along their line. */
+/* Pairs conserve momentum, for any densities and mean, and angular momentum if forces are along
+ * their line. */
 static void momentum(void **state)
 {
     (void)state;
@@ -103,8 +103,8 @@ static mps_sim *linear_flow(const cloud *c, const double *A, const double *mu, d
     return sim;
 }
 
-/* Fluids that turn as one body have no viscous force with the whole stress; div(mu grad u) pushes at their
- * interface. */
+/* Fluids in rigid rotation have no viscous force with the full stress; div(mu grad u) gives a force
+ * at their interface. */
 static void rigid_rotation(void **state)
 {
     (void)state;
@@ -343,8 +343,8 @@ static double step_of_pair(bool alone, double re_far, double stress)
     return info.dt;
 }
 
-/* The arithmetic mean makes gas beside syrup stiff: the model asks for shorter steps. With the whole
- * stress also 0.7 of the longest stable step, lambda/(2 (D + 2) nu), of each fluid by itself too. */
+/* The arithmetic mean makes gas next to syrup stiff: the model reduces the time step. With the full
+ * stress also to 0.7 of the longest stable step, lambda/(2 (D + 2) nu), of each fluid. */
 static void time_step(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* viscosity.pair and viscosity.laplacian with the channel "viscosity" of a model: with the values of the phases the same bytes as without it, with
- * twice the values twice the acceleration. */
+/* viscosity.pair and viscosity.laplacian with the channel "viscosity" of a model: with the values
+ * of the phases the same bytes as without it, with twice the values twice the acceleration. */
 #include "phase_fixture.h"
 #include <math.h>
 
@@ -32,7 +32,8 @@ static const mps_model_ops given = {.struct_size = sizeof(mps_model_ops),
                                     .channel_count = 1,
                                     .channels = give_channels};
 
-/* Two fluids in a tank, all particles in motion; accelerations are in spy.a. @return numbers there */
+/* Two fluids in a tank, all particles in motion; accelerations are in spy.a. @return number of
+ * values */
 static int64_t accelerate(const char *model, int32_t dim, int theta, int slip, double stress)
 {
     const double lo[3] = {0}, hi[3] = {0.5, 0.25, 0.4}, top[3] = {0.5, 0.5, 0.4};

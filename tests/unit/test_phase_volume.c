@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* source.volume in flows that strain without changing volumes: what it asks for against its equation. */
+/* source.volume in flows that strain without changing volumes: its source against its equation. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
-static const double DT = 0.02; /* long, so that the little that is relaxed counts for nothing */
+static const double DT = 0.02; /* long, so that relaxation is negligible */
 
 /* u = A x with the columns of A one after the other; the volume of no particle changes. */
 static void strain(const cloud *c, const double *a, double *u)
@@ -31,7 +31,8 @@ static bool inside(const cloud *c, int64_t i, int side)
     return true;
 }
 
-/* The source of a particle inside: its part of div(v) is 0, that of the volume deviation is relaxed in a million tau_g. */
+/* The source of a particle inside: its part of div(v) is 0, that of the volume deviation is relaxed
+ * in a million tau_g. */
 static double source_inside(int dim, const double *a, double gain, double forward)
 {
     const int side = dim == 2 ? 20 : 13;
@@ -63,8 +64,9 @@ static double source_inside(int dim, const double *a, double gain, double forwar
     return most;
 }
 
-/* After the step div(v) = dt T/2 keeps volumes. The flow takes dt T off div(v) in every step; a row that gets `gain` of its right
- * side gives it back whole if that is (1/gain - 1/2) T before the gain, in stretching flow, and the less in rotating flow. */
+/* After the step div(v) = dt T/2 keeps volumes. The flow reduces div(v) by dt T in every step; a
+ * row with the factor `gain` on its right-hand side compensates it completely if this is (1/gain -
+ * 1/2) T before the gain, in stretching flow, and less in rotating flow. */
 static void strained(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Thin plates: what is built, and that the neighbours of each particle are the liquid of its own side, all of it, each once. */
+/* Thin plates: construction; the neighbours of each particle are all liquid particles of its own
+ * side, each once. */
 #include "plate_fixture.h"
 
 /* Kernel sums of row i over fluid, walls and dummies. */
@@ -12,7 +13,8 @@ static void row_sums(const mps_stencil *t, const int32_t *kind, int64_t i, doubl
     }
 }
 
-/* The particle of b at the place of particle i of a, moved by `offset` along x, of the same kind, and on the same side. */
+/* The particle of b at the position of particle i of a, moved by `offset` along x, of the same
+ * kind, and on the same side. */
 static int64_t same_place(const mps__particles *a, int64_t i, const mps__particles *b,
                           double offset, double side)
 {
@@ -76,7 +78,8 @@ static void divided_tank_is_two_tanks(void **state)
         }
 }
 
-/* Inside the liquid a plate without thickness takes no place: around its edges every lattice point is seen once. */
+/* Inside the liquid a plate without thickness occupies no volume: around its edges every lattice
+ * point is a neighbour once. */
 static void edges_are_seen_once(void **state)
 {
     (void)state;
@@ -104,7 +107,8 @@ static void edges_are_seen_once(void **state)
     }
 }
 
-/* The same off the lattice: the sum does not jump by a particle's weight when one passes over the edge. */
+/* The same off the lattice: the sum does not jump by a particle's weight when one passes over the
+ * edge. */
 static void passing_the_edge(void **state)
 {
     (void)state;
@@ -165,7 +169,8 @@ static void areas(void **state)
     }
 }
 
-/* A box next to the floor is built down to it; one that lies flat on the floor is a step with one wet side. */
+/* A box next to the floor is built down to it; a flat one on the floor is a step with one wet
+ * side. */
 static void what_is_a_plate(void **state)
 {
     (void)state;
@@ -182,7 +187,7 @@ static void what_is_a_plate(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Fluid may stand where a shadow is. */
+/* Fluid may be in an occluded region. */
 static void shadows_are_not_in_the_way(void **state)
 {
     (void)state;
@@ -229,7 +234,8 @@ static void shadows_know_their_wall(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A shelf on a wall between two compartments: its corners are corners of a tank, the other side is a flat wall. */
+/* A shelf on a wall between two compartments: its corners are corners of a tank, the other side is
+ * a flat wall. */
 static void plate_on_plate(void **state)
 {
     (void)state;
@@ -266,8 +272,8 @@ static void plate_on_plate(void **state)
     mps_sim_destroy(tank);
 }
 
-/* An inclined plate that ends half a spacing above the floor: true area, no fluid too near, no particle has
- * neighbours through it or under it. */
+/* An inclined plate that ends half a spacing above the floor: true area, no fluid too near, no
+ * particle has neighbours through it or under it. */
 static void inclined_plate(void **state)
 {
     (void)state;

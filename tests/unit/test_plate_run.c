@@ -2,7 +2,7 @@
 /* Thin plates in steps: pressures, particles and probes of one side do not depend on the other. */
 #include "plate_fixture.h"
 
-/* Pressures on the left of a plate; on the right the water stands `right` deep. */
+/* Pressures on the left of a plate; on the right the water depth is `right`. */
 static int64_t pressures_left(double right, double *p)
 {
     mps_sim *sim = new_sim(2, dp);
@@ -27,7 +27,8 @@ static int64_t pressures_left(double right, double *p)
     return count;
 }
 
-/* The direct solver shares nothing between the sides but the order of elimination: equal to rounding. */
+/* In the direct solver the sides have only the order of elimination in common: equal to
+ * rounding. */
 static void sides_do_not_feel_each_other(void **state)
 {
     (void)state;
@@ -39,7 +40,8 @@ static void sides_do_not_feel_each_other(void **state)
     for (int64_t k = 0; k < count; k++) ASSERT_NEAR(a[k], b[k], 1e-8);
 }
 
-/* Drops shot at a plate, several spacings a step, stay on their side and lose their speed toward it, also in a tank that turns. */
+/* Droplets that hit a plate at several spacings per step remain on their side and lose their normal
+ * speed, also in a rotating tank. */
 static void no_particle_passes(void **state)
 {
     (void)state;
@@ -121,7 +123,7 @@ static void probes_tell_the_sides(void **state)
     ASSERT_OK(sim, mps_probe_read(sim, inside, &p));
     ASSERT_NEAR(p, 0, 0);
     ASSERT_OK(sim, mps_probe_read(sim, force, f));
-    /* of the water below the level alone: the dry row above it shows 0 */
+    /* only of the water below the level: the dry row above it has pressure 0 */
     ASSERT_NEAR(f[0], 1000 * 9.81 * 0.5 * 0.4 * 0.4, 0.001 * 1000 * 9.81 * 0.08);
     mps_sim_destroy(sim);
 }

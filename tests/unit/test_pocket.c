@@ -58,7 +58,7 @@ static mps_sim *build(scene *s)
     return sim;
 }
 
-/* Places, velocities and pressures by id; free() it. */
+/* Positions, velocities and pressures by id; free() it. */
 static double *numbers(mps_sim *sim, int64_t *count)
 {
     static const char *const field[] = {"position", "velocity", "pressure", "wall_pressure"};
@@ -153,7 +153,7 @@ static void restart(void **state)
     mps_sim_destroy(b);
 }
 
-/* A number of the state, and what is said when it is another. */
+/* A number of the state, and the error text if it is changed. */
 typedef struct forgery {
     size_t at;
     double value;
@@ -264,8 +264,8 @@ static int follow_books(void *user, mps_sim *sim, const mps_step_info *info)
     return 0;
 }
 
-/* A dam break: jets enclose gas, pockets split, join and open. What is in them is what was enclosed
- * less what has gone. */
+/* A dam break: jets enclose gas, pockets split, join and open. Their gas is the enclosed gas minus
+ * the escaped gas. */
 static void gas_is_kept(void **state)
 {
     (void)state;
@@ -306,8 +306,8 @@ static int add_volume(void *user, mps_sim *sim, const mps_step_info *info)
     return 0;
 }
 
-/* A pocket under a roof of plates in a tank that surges keeps its gas and its volume: its mean over
- * many of its own periods. MPS_POCKET_SECONDS asks for another time. */
+/* A pocket under a roof of plates in a surging tank keeps its gas and its volume: its mean over
+ * many of its own periods. MPS_POCKET_SECONDS sets another time. */
 static void carried(void **state)
 {
     (void)state;
@@ -340,7 +340,8 @@ static void carried(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Particles of the next frame with a number in its array "pocket". Its particles: fluid and walls. */
+/* Particles of the next frame with a number in its array "pocket". Its particles: fluid and
+ * walls. */
 static int64_t numbered_in_frame(mps_sim *sim, double number)
 {
     const int64_t n = mps_particles_count(sim, MPS_FLUID) + mps_particles_count(sim, MPS_WALL);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pockets of gas from step to step, on drawn voids: what closes, splits, joins and opens keeps the
- * amount of gas. */
+/* Pockets of gas from step to step, on drawn voids: closing, splitting, merging and opening
+ * conserve the amount of gas. */
 #include "phase/gas_pocket.h"
 #include "tank_fixture.h"
 #include <stdio.h>

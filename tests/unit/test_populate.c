@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fluid that models let in and out, and bodies that they move: what it costs, the budget, checkpoints. */
+/* Inflow, outflow and bodies moved by models: costs, the budget, checkpoints. */
 #include "sim.h"
 #include "model_fixture.h"
 #include <stdio.h>
@@ -8,7 +8,7 @@ static const double dp = 0.05, top = 0.8, speed = 1.0;
 
 /* ---- models ---------------------------------------------------------------------------------- */
 
-/* Three particles in each step, above one another by what they fall until the next ones come. */
+/* Three particles in each step, above one another by their fall until the next ones. */
 static int add_three(mps_stage *s)
 {
     double x[6], u[6];
@@ -27,13 +27,13 @@ static int remove_none(mps_stage *s)
     return !leaves || mps_stage_remove(s, leaves);
 }
 
-/* Three come, and water above the line goes, told in two calls. */
+/* Three particles are added, and water above the line is removed, in two calls. */
 static int come_and_go(mps_stage *s)
 {
     for (int half = 0; half < 2; half++) {
         int32_t *leaves = mps_stage_scratch_integers(s, s->view->n);
         if (!leaves) return 1;
-        for (int64_t i = 0; i < s->view->n; i++) /* solids stay, whatever is said of them */
+        for (int64_t i = 0; i < s->view->n; i++) /* solids remain in any case */
             leaves[i] = s->view->x[2 * i + 1] > 0.17 && (s->view->x[2 * i] < 0.3) == (half == 0);
         if (mps_stage_remove(s, leaves)) return 1;
     }
@@ -147,7 +147,7 @@ static void take_steps(mps_sim *sim, int steps)
     for (int k = 0; k < steps; k++) ASSERT_OK(sim, mps_step(sim, 1, NULL));
 }
 
-/* The first step too: before it the fluid is not there. */
+/* Also in the first step, before which there is no fluid. */
 static void energy_of_what_came(void **state)
 {
     (void)state;
@@ -177,7 +177,7 @@ static void no_body_with_moved_solids(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Dummies are linked to their walls once, whatever comes and however solids move. */
+/* Dummies are linked to their walls once, for any inflow and motion of solids. */
 static void walls_are_linked_once(void **state)
 {
     (void)state;
@@ -241,7 +241,8 @@ static int64_t count_fluid(const mps_sim *sim)
     return fluid;
 }
 
-/* In a step: the upper row of 11 goes at first, then what came a step before; solids stay. */
+/* In a step: the upper row of 11 is removed first, then particles added one step before; solids
+ * remain. */
 static void what_comes_and_goes(void **state)
 {
     (void)state;
@@ -258,7 +259,7 @@ static void what_comes_and_goes(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step that fails after fluid came and went: as if it had never been begun, and the next ones too. */
+/* A step that fails after inflow and outflow has no effect, also on later steps. */
 static void failed_step_brings_fluid_back(void **state)
 {
     (void)state;

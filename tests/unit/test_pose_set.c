@@ -35,8 +35,8 @@ static mps_motion_state swing(double t)
     return s;
 }
 
-/* Not a digit of the pose that was given is lost, and on the way the polynomial follows a smooth motion: error T^6/46080 of its 6th
- * derivative. */
+/* Not a digit of the pose that was given is lost, and on the way the polynomial follows a smooth
+ * motion: error T^6/46080 of its 6th derivative. */
 static void meets_poses(void **state)
 {
     mps_sim *sim = half_full(MPS_START_AT_REST);
@@ -76,7 +76,8 @@ static int follow(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* Walls see poses at the ends of steps, so that a callback with the same poses gives the same bytes. */
+/* Walls use poses at the ends of steps, so that a callback with the same poses gives the same
+ * bytes. */
 static void same_as_callback(void **state)
 {
     mps_sim *sim = half_full(MPS_START_AT_REST), *called = half_full(MPS_START_AT_REST);
@@ -104,7 +105,8 @@ static void same_as_callback(void **state)
     mps_sim_destroy(called);
 }
 
-/* The motion that was set last moves the tank; a step beyond the pose is refused, and the next pose goes on. */
+/* The motion that was set last moves the tank; a step beyond the pose is refused, and the next pose
+ * continues. */
 static void last_one_counts(void **state)
 {
     mps_sim *sim = half_full(MPS_START_AT_REST);
@@ -145,8 +147,9 @@ static void starts_once(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A tank of a tenth of its liquid's added mass, moved by the load of the last step alone: the error names the coupling. A tank that is
- * thrown about by other reasons than its load is moved by a function. */
+/* A tank of a tenth of its liquid's added mass, moved by the load of the last step alone: the error
+ * names the coupling. A tank that is thrown about by other reasons than its load is moved by a
+ * function. */
 static void diverges(void **state)
 {
     (void)state;
@@ -176,7 +179,7 @@ static void diverges(void **state)
     }
 }
 
-/* What is refused leaves the motion as it is. */
+/* A refusal leaves the motion unchanged. */
 static void refused(void **state)
 {
     mps_sim *sim = half_full(MPS_START_AT_REST);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The pressure equation of small clouds: against a dense double loop, with known solutions, and its singular components. */
+/* The pressure equation of small clouds: against a dense double loop, with known solutions, and its
+ * singular components. */
 #include "ppe_fixture.h"
 
 static double entry(const mps__ppe *e, int64_t r, int32_t c)
@@ -20,7 +21,8 @@ static bool in_equation(const tank *k, int64_t i)
     return k->fixed[i] || (k->kind[i] != MPS_DUMMY && k->region[i] <= MPS_REGION_NEAR);
 }
 
-/* What a cut-off surface loses of the flux of a linear pressure, as a factor on the pairs that are left. */
+/* What a cut-off surface loses of the flux of a linear pressure, as a factor on the pairs that are
+ * left. */
 static double surface_factor(const tank *k, double re)
 {
     double full = 0, left = 0;
@@ -35,7 +37,8 @@ static double surface_factor(const tank *k, double re)
     return k->terms.equation.complete_surface ? full / left : 1;
 }
 
-/* 2D/(n0 lambda) W/rho of one pair, in single precision as the matrix has it; 0 if it takes no part. */
+/* 2D/(n0 lambda) W/rho of one pair, in single precision as the matrix has it; 0 if it takes no
+ * part. */
 static double coefficient(const tank *k, int64_t i, int64_t j)
 {
     const mps_stencil *t = k->terms.equation.radius == MPS_NEAR ? &k->view.near : &k->view.far;
@@ -64,7 +67,8 @@ static double residual(const tank *k, int64_t i, const double *p)
     return sum;
 }
 
-/* Solve the assembled system by elimination (no pivots: it is symmetric positive definite) and spread the pressures. */
+/* Solve the assembled system by elimination (no pivots: it is symmetric positive definite) and
+ * spread the pressures. */
 static void solve(tank *k, double *p)
 {
     const int64_t n = k->e.n;
@@ -89,7 +93,7 @@ static void solve(tank *k, double *p)
     mps__ppe_scatter(&k->e, &k->view, &k->terms, p);
 }
 
-/* ---- structure --------------------------------------------------------------------------------------------------- */
+/* ---- structure ------------------------------------------------------------------------------- */
 
 /* Columns ascend, without the diagonal, A is symmetric, row sums are the shift. */
 static void check_matrix(const mps__ppe *e)
@@ -113,7 +117,8 @@ static void check_matrix(const mps__ppe *e)
     }
 }
 
-/* Everything an assembly can meet at once: symmetric, and the solution fulfils the equation of the double loop. */
+/* Everything an assembly can meet at once: symmetric, and the solution fulfils the equation of the
+ * double loop. */
 static void check_all_terms(int radius, int complete, double walls)
 {
     uint64_t seed = 1;
@@ -181,9 +186,10 @@ static void threads_agree(void **state)
     tank_free(&two);
 }
 
-/* ---- known solutions ------------------------------------------------------------------------------------------------ */
+/* ---- known solutions ------------------------------------------------------------------------- */
 
-/* A tank at rest, b = g: p = rho g (top - y) is the solution, on any cloud and to rounding, with no source at all. */
+/* A tank at rest, b = g: p = rho g (top - y) is the solution, on any cloud and to rounding, with no
+ * source at all. */
 static void hydrostatic(void **state)
 {
     (void)state;
@@ -212,7 +218,8 @@ static void hydrostatic(void **state)
     }
 }
 
-/* What is fixed leaves the matrix and comes back as a shift and on the right side; the first guess is the old pressure. */
+/* Fixed rows are eliminated from the matrix and give a shift and a right-hand side; the initial
+ * guess is the previous pressure. */
 static void fixed_rows(void **state)
 {
     (void)state;
@@ -236,7 +243,8 @@ static void fixed_rows(void **state)
     tank_free(&k);
 }
 
-/* ---- levels and components --------------------------------------------------------------------------------------------- */
+/* ---- pressure data and components
+ * ------------------------------------------------------------------- */
 
 static double mean_rhs(const mps__ppe *e, int32_t component)
 {
@@ -250,7 +258,7 @@ static double mean_rhs(const mps__ppe *e, int32_t component)
     return sum / size;
 }
 
-/* Nothing fixes the level of a full closed tank: one component, and a right side that has no mean. */
+/* A full closed tank has no pressure datum: one component, and a right-hand side with mean zero. */
 static void closed_tank(void **state)
 {
     (void)state;
@@ -263,7 +271,7 @@ static void closed_tank(void **state)
     assert_int_equal(k.e.problem.components, 1);
     for (int64_t r = 0; r < k.e.n; r++) assert_int_equal(k.e.problem.component[r], 0);
     assert_true(fabs(mean_rhs(&k.e, 0)) < 1e-14);
-    k.shift[60] = 1e-6; /* the smallest shift is a level */
+    k.shift[60] = 1e-6; /* the smallest shift is a pressure datum */
     assemble(&k);
     assert_int_equal(k.e.problem.components, 0);
     k.shift[60] = 0;
@@ -273,7 +281,7 @@ static void closed_tank(void **state)
     tank_free(&k);
 }
 
-/* Pools out of each other's reach: every one has its own level; only the closed ones are singular. */
+/* Separate pools: each has its own pressure datum or none; only the closed ones are singular. */
 static void separate_pools(void **state)
 {
     (void)state;
@@ -296,7 +304,8 @@ static void separate_pools(void **state)
     tank_free(&k);
 }
 
-/* Rows in any order, so that a pool begins as many trees of rows that meet late: 1 and 3 threads find the one without a level. */
+/* Rows in any order, so that a pool starts as many union-find trees that merge late: 1 and 3
+ * threads find the one without a pressure datum. */
 static void pools_in_any_order(void **state)
 {
     (void)state;
@@ -328,7 +337,8 @@ static void pools_in_any_order(void **state)
     }
 }
 
-/* Drops that nothing touches: fixed, they have their value; spray is in no equation; never a zero row. */
+/* Drops that nothing touches: fixed, they have their value; spray is in no equation; never a zero
+ * row. */
 static void detached_fluid(void **state)
 {
     (void)state;
@@ -339,8 +349,8 @@ static void detached_fluid(void **state)
     tank_init(&k, c);
     k.fixed[0] = k.fixed[60] = 1;
     k.value[60] = 42;
-    k.rhs[61] = 5;   /* no neighbour, no level: p = 0 */
-    k.shift[62] = 2; /* no neighbour, but a level */
+    k.rhs[61] = 5;   /* no neighbour, no pressure datum: p = 0 */
+    k.shift[62] = 2; /* no neighbour, but a pressure datum */
     k.rhs[62] = 8;
     k.region[20] = MPS_REGION_SPRAY;
     k.rhs[20] = 3;
@@ -359,7 +369,7 @@ static void detached_fluid(void **state)
     tank_free(&k);
 }
 
-/* Everything fixed: no rows, and the values come through. */
+/* All rows fixed: no unknowns, and the fixed values are the result. */
 static void no_unknowns(void **state)
 {
     (void)state;

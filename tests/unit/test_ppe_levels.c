@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Components of the pressure equation: which of them decides whether the level is free. */
+/* Components of the pressure equation: which of them determines level_free. */
 #include "ppe_fixture.h"
 
-/* Of two pools of the same size the one with the least id says whether the level of the tank is free, wherever its rows are. */
+/* Of two pools of the same size the one with the smallest id determines level_free, for any order
+ * of rows. */
 static void largest_of_equals(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The presets to the last number: models in their order, each with the values of all its settings.
- * A changed default of a model changes a preset, and results with it: change the line here when that
+/* All values of the presets: models in their order, each with the values of all its settings. A
+ * changed default of a model changes a preset, and results with it: change the line here when that
  * is meant. */
 #include "tank_fixture.h"
 #include <mps/list.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The presets: which models they switch on, and every setting that is not the model's own default. */
+/* The presets: their models, and every setting that differs from the default of the model. */
 #include "built_in.h"
 #include "tank_fixture.h"
 #include <mps/model.h>
@@ -68,13 +68,13 @@ static const mps_model_ops *built_in(const char *name)
     return NULL;
 }
 
-/* What the preset makes of a setting; counts those that differ from the default. */
+/* Value of a setting in the preset; counts those that differ from the default. */
 static double wanted_value(const changed *settings, const char *model, const mps_setting *s,
                            int *different)
 {
     for (const changed *c = settings; c->model; c++)
         if (strcmp(c->model, model) == 0 && strcmp(c->key, s->key) == 0) {
-            assert_true(c->value != s->initial); /* else the line of the table says nothing */
+            assert_true(c->value != s->initial); /* otherwise the line of the table has no effect */
             ++*different;
             return c->value;
         }
@@ -88,7 +88,7 @@ static void models_and_settings(void **state)
         int different = 0, lines = 0;
         mps_sim *sim = new_sim(2, 0.05);
         ASSERT_OK(sim, mps_model_set(sim, "source", "clip",
-                                     0.3)); /* of the preset before: gone with it */
+                                     0.3)); /* of the previous preset: removed with it */
         ASSERT_OK(sim, mps_model_set(sim, "collision", "distance", 0.55));
         ASSERT_OK(sim, mps_preset_use(sim, list[k].preset));
         for (int32_t m = 0; list[k].models[m] || mps_model_name(sim, m); m++) {
@@ -112,7 +112,7 @@ static void models_and_settings(void **state)
     }
 }
 
-/* A preset that is not there names the nearest and leaves what was chosen. */
+/* An unknown preset reports the nearest name and keeps the current models. */
 static void misspelt(void **state)
 {
     (void)state;

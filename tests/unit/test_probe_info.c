@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names of probes, and the face that a sensor reads: the nearest one, or the one that its normal asks for. */
+/* Names of probes, and the face that a sensor reads: the nearest one, or the one selected by its
+ * normal. */
 #include "probe_fixture.h"
 #include <stdio.h>
 
@@ -33,7 +34,7 @@ static mps_probe_info info_of(const mps_sim *sim, int32_t id)
     return info;
 }
 
-/* A sensor with a normal (0, 0, 0: none) reads the part with that pressure, and says so. */
+/* A sensor with a normal (0, 0, 0: none) reads the part with this pressure, and logs it. */
 static void assert_face(mps_sim *sim, const mps_probe *p, const char *part, double nx, double ny,
                         double pressure)
 {
@@ -68,7 +69,7 @@ static void in_a_corner(void **state)
         mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0, 1.6 * dp, 0.05);
         p.diameter = 1e-5;
         assert_face(sim, &p, "tank.x0", 1, 0, 1);
-        assert_string_equal(told, ""); /* there is no choice */
+        assert_string_equal(told, ""); /* only one face */
         p.at[1] = 0.4 * dp;
         p.name = "P1";
         p.at[0] = 1.1 * dp;
@@ -93,7 +94,7 @@ static void in_a_corner(void **state)
     }
 }
 
-/* Both sides of a plate without thickness, from a place in its plane. */
+/* Both sides of a plate without thickness, from a position in its plane. */
 static void on_a_plate(void **state)
 {
     (void)state;
@@ -185,7 +186,8 @@ static void names_in_messages(void **state)
     mps_sim_destroy(sim);
 }
 
-/* What is averaged over less than dp resolves says so; a force without any mean is the load of the step, and does not. */
+/* An average over less than the time that dp resolves is logged; an instantaneous force is the load
+ * of the step and is not. */
 static void windows_that_are_short(void **state)
 {
     static const struct {
@@ -210,7 +212,8 @@ static void windows_that_are_short(void **state)
     }
 }
 
-/* A force that lags says so, once, to a host that moves the tank by poses and does not watch its load. */
+/* A delayed force is logged once if an application moves the tank by poses without
+ * mps_load_watch(). */
 static void forces_that_lag(void **state)
 {
     static const double average[] = {MPS_AVERAGE_AUTO, 0.01, 0, MPS_AVERAGE_AUTO, MPS_AVERAGE_AUTO};

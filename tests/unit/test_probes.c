@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Pressure in the fluid, forces and energies on states written by hand; what a probe refuses. */
+/* Pressure in the fluid, forces and energies on prescribed states; refusals of probes. */
 #include "probe_fixture.h"
 #include "sim.h"
 
@@ -49,7 +49,8 @@ static void force_on_floor_and_walls(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Uniform pressure on a closed surface has neither force nor moment, whatever the pose; one face has p A. */
+/* Uniform pressure on a closed surface has neither force nor moment, for any pose; one face has p
+ * A. */
 static void force_turns_with_the_tank(void **state)
 {
     (void)state;
@@ -75,7 +76,7 @@ static void force_turns_with_the_tank(void **state)
     ASSERT_OK(sim, mps_probe_read(sim, id, f));
     const double down[3] = {0, -1, 0};
     mps__motion_rotate(&sim->world.motion, &sim->world.motion.now, down, normal);
-    /* the edges' shares of the side walls cancel in pairs */
+    /* contributions of the edges to the side walls cancel in pairs */
     for (int d = 0; d < 3; d++) ASSERT_NEAR(f[d], 500 * 0.2 * 0.15 * normal[d], 1e-10);
     mps_sim_destroy(sim);
 }
@@ -168,7 +169,7 @@ static void momentum_budget(void **state)
     mps_sim_destroy(sim);
 }
 
-/* At rest the floor carries the weight, and that of the half cells that the side walls stand for. */
+/* At rest the floor carries the weight, including that of the half cells at the side walls. */
 static void momentum_at_rest(void **state)
 {
     (void)state;
@@ -225,7 +226,8 @@ static void refusals(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Particles lack the half cells at walls, of the order dp/L; with them mass and volume are those of the liquid but for dp^2. */
+/* Particles lack the half cells at walls, of the order dp/L; with them mass and volume are those of
+ * the liquid but for dp^2. */
 static void filled_volume(void **state)
 {
     (void)state;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A sensor near an edge at which the wall turns away from the liquid reads its own face: drawn loads on both faces of a box and of prisms whose
- * particles are no lattice, whatever the particles on the edge show. */
+/* A sensor near an edge at which the wall turns away from the liquid reads its own face: random
+ * loads on both faces of a box and of prisms whose particles are not on a lattice, for any pressure
+ * of the particles on the edge. */
 #include "../every.h"
 #include "probe_fixture.h"
 
@@ -52,7 +53,7 @@ static void write_loads(mps_sim *sim, const body *b)
     }
 }
 
-/* Reading of a sensor of one side, at a place along it from the edge with the side before it. */
+/* Reading of a sensor on one side, at a distance from the edge with the previous side. */
 static double read_side(mps_sim *sim, const body *b, int k, const double *edge, double t,
                         double diameter, double at[3])
 {
@@ -68,7 +69,8 @@ static double read_side(mps_sim *sim, const body *b, int k, const double *edge, 
     return read_one(sim, &p);
 }
 
-/* A box on the floor, whose particles are those of the lattice: side 0 is the front, side 1 the top. */
+/* A box on the floor, whose particles are those of the lattice: side 0 is the front, side 1 the
+ * top. */
 static body box(void)
 {
     return (body){.count = 3, .n = {{-1, 0}, {0, 1}, {1, 0}}, .offset = {-0.2, 0.08, 0.28}};
@@ -85,7 +87,7 @@ static mps_sim *with_box(int dim)
 
 static const double diameters[] = {1e-5, 0.01, 0.023};
 
-/* One side is pressed, the other is not: each reads its own load, whatever the edge shows. */
+/* One side is loaded, the other is not: each reads its own load, for any pressure of the edge. */
 static void faces_of_a_box(void **state)
 {
     (void)state;
@@ -138,7 +140,8 @@ static void linear_on_each(void **state)
         }
 }
 
-/* Pressures that fall steeply away from the edge, or to it: nothing is made up beyond what the particles show. */
+/* Pressures that fall steeply away from the edge, or to it: nothing is made up beyond what the
+ * particles show. */
 static void no_overshoot(void **state)
 {
     (void)state;
@@ -162,7 +165,7 @@ static void no_overshoot(void **state)
         }
 }
 
-/* Edges that turn by 52 to 120 degrees, inclined against the lattice. */
+/* Edges with an angle of 52 to 120 degrees, inclined to the lattice. */
 static void prisms(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall pressure on any face: a linear pressure is read exactly on flat faces, whatever stands around; places off the wall are refused. */
+/* Wall pressure on any face: a linear pressure is read exactly on flat faces, with any
+ * surroundings; positions away from the wall are refused. */
 #include "../every.h"
 #include "probe_fixture.h"
 
@@ -18,7 +19,7 @@ static void write_linear(mps_sim *sim)
         s->load[i] = s->kind[i] == MPS_WALL ? linear(&s->ref[i * s->dim], s->dim) : 0;
 }
 
-/* The sensor reads the pressure at its own place up to `off` spacings. */
+/* The sensor reads the pressure at its own position within `off` spacings. */
 static void assert_linear(mps_sim *sim, double x, double y, double z, double diameter, double off)
 {
     const int dim = sim->world.setup.dim;
@@ -61,7 +62,8 @@ static void edges_and_corners(void **state)
 
 /* ---- baffles ---- */
 
-/* Sensors on both sides and the top of a baffle of n layers, from its foot on, and on the floor beside it. */
+/* Sensors on both sides and the top of a baffle of n layers, from its foot on, and on the adjacent
+ * floor. */
 static void baffles(void **state)
 {
     (void)state;
@@ -89,7 +91,8 @@ static void baffles(void **state)
         }
 }
 
-/* Liquid on one side of a baffle alone: sensors of the dry side and of the floor beside it read nothing of it, and it nothing of them. */
+/* Liquid on only one side of a baffle: sensors on the dry side and its floor do not read the
+ * liquid, and sensors on the wet side do not read the dry one. */
 static void sides_of_baffles(void **state)
 {
     (void)state;
@@ -169,7 +172,8 @@ static void add_solid(mps_sim *sim, mps_distance_fn distance, void *user, const 
     ASSERT_OK(sim, mps_solid_add(sim, &solid));
 }
 
-/* A body on the floor of a tank, its sides upright (steep = 0) or inclined: its particles are not those of the lattice. */
+/* A body on the floor of a tank, its sides upright (steep = 0) or inclined: its particles are not
+ * those of the lattice. */
 static void bodies_on_the_floor(void **state)
 {
     (void)state;
@@ -278,7 +282,7 @@ static void off_the_wall(void **state)
     }
 }
 
-/* Above the rim of an open tank, in the plane of its wall. */
+/* Above the top edge of an open tank, in the plane of its wall. */
 static void beyond_the_end(void **state)
 {
     (void)state;

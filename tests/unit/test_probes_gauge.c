@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Free-surface gauges on particles put by hand: resolution, walls, baffles, what is no surface. */
+/* Free-surface gauges on prescribed particles: resolution, walls, baffles, particles that are no
+ * surface. */
 #include "cloud.h"
 #include "probe_fixture.h"
 
-/* A lattice whose columns are shifted so that the centres of the top layer lie at `surface`. */
+/* A lattice whose columns are shifted so that the centres of the top layer are at `surface`. */
 static void add_columns(mps_sim *sim, int32_t dim, double (*surface)(double x, double z, double c),
                         double c)
 {
@@ -44,7 +45,8 @@ static double cosine(double x, double z, double c)
     return 0.15 + c * cos(7.853981633974483 * x); /* pi x / 0.4 */
 }
 
-/* On the papers' lattice the surface is at the centres of the top layer: layers * dp above the floor. */
+/* On the papers' lattice the surface is at the centres of the top layer: layers * dp above the
+ * floor. */
 static void gauge_still_water(void **state)
 {
     (void)state;
@@ -99,7 +101,7 @@ static void gauge_tilted_and_curved(void **state)
     mps_sim_destroy(sim);
 }
 
-/* The gauge turns with the tank: the same particles in a tilted tank give the same reading. */
+/* The gauge rotates with the tank: the same particles in a tilted tank give the same reading. */
 static void gauge_in_a_turned_tank(void **state)
 {
     (void)state;
@@ -147,7 +149,7 @@ static void add_jittered(mps_sim *sim, int32_t dim, int layers, double jitter, u
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
 }
 
-/* Steep water at both walls, where the band stands two spacings off. */
+/* Steep water at both walls, where the band is two spacings off. */
 static void gauge_of_steep_water(void **state)
 {
     (void)state;
@@ -242,7 +244,8 @@ static void gauge_above_a_baffle(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A film one particle thick that runs up a wall is no elevation, also when it has come off the wall; two are. */
+/* A run-up film one particle thick is no elevation, also when it has detached from the wall; two
+ * particles are. */
 static void gauge_of_run_ups(void **state)
 {
     (void)state;
@@ -283,7 +286,8 @@ static void gauge_beside_a_thin_baffle(void **state)
     }
 }
 
-/* In a channel 4 dp wide there is no room to look for a slope: the water behind its thin walls is another. */
+/* A channel 4 dp wide is too narrow to determine a slope: the water behind its thin walls is
+ * separate. */
 static void gauge_in_a_channel(void **state)
 {
     (void)state;
@@ -301,7 +305,7 @@ static void gauge_in_a_channel(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A baffle that stands out of the water, and one under whose roof the water ends. */
+/* A surface-piercing baffle, and one with the water ending below its roof. */
 static void gauge_through_a_dry_baffle(void **state)
 {
     (void)state;
@@ -339,7 +343,7 @@ static void define_phase(mps_sim *sim, int32_t index, double density)
     ASSERT_OK(sim, mps_phase_set(sim, index, &phase));
 }
 
-/* The heavier of two fluids is the liquid, whatever its number. */
+/* The heavier of two fluids is the liquid, for any number of its phase. */
 static void gauge_of_two_fluids(void **state)
 {
     (void)state;
@@ -358,7 +362,8 @@ static void gauge_of_two_fluids(void **state)
     }
 }
 
-/* Fill phase `phase` of a column at x upwards from `from`, rows `step` apart, below `to`. @return the next row */
+/* Fill phase `phase` of a column at x upwards from `from`, rows `step` apart, below `to`. @return
+ * the next row */
 static double add_rows(mps_sim *sim, int32_t phase, double x, double from, double to, double step)
 {
     double at[2 * 64];
@@ -374,7 +379,8 @@ static double add_rows(mps_sim *sim, int32_t phase, double x, double from, doubl
     return from;
 }
 
-/* A sloping interface, rows of a wave's crest (1.2 dp apart, so columns 1/1.2) and of its trough: it is halfway between the rows. */
+/* A sloping interface, rows of a wave's crest (1.2 dp apart, so columns 1/1.2) and of its trough:
+ * it is halfway between the rows. */
 static void gauge_of_an_interface(void **state)
 {
     (void)state;

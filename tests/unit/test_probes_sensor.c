@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall pressure over the area of a sensor: exact for linear pressures, cut off at the ends of a face, without jumps. */
+/* Wall pressure over the area of a sensor: exact for linear pressures, cut off at the ends of a
+ * face, without jumps. */
 #include "cloud.h"
 #include "probe_fixture.h"
 
@@ -11,7 +12,7 @@ static void write_linear(mps_sim *sim, double a, const double b[3])
         s->load[i] = s->kind[i] == MPS_WALL ? a + mps__dot(b, &s->ref[i * s->dim], s->dim) : 0;
 }
 
-/* The same pressures on the same walls, whatever their order. */
+/* Equal pressures on equal walls, in any order. */
 static void write_random(mps_sim *sim)
 {
     const mps__particles *s = &sim->world.particles;
@@ -71,7 +72,7 @@ static void any_diameter_and_place(void **state)
     }
 }
 
-/* A wall that is not along the axes: 30 degrees, in 3-D also turned out of the plane. */
+/* A wall not aligned with the axes: 30 degrees, in 3-D also rotated out of the plane. */
 static void inclined_wall(void **state)
 {
     (void)state;
@@ -117,7 +118,7 @@ static void plate(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Two walls at the same places, back to back: a sensor belongs to the side it is on. */
+/* Two walls at the same positions, back to back: a sensor belongs to the side it is on. */
 static void sides_of_a_plate(void **state)
 {
     (void)state;
@@ -178,7 +179,8 @@ static void partly_covered(void **state)
     mps_sim_destroy(sim);
 }
 
-/* At an edge the mean is over what is left of the strip or the disc: centroids of half and quarter discs. */
+/* At an edge the mean is over what is left of the strip or the disc: centroids of half and quarter
+ * discs. */
 static void cut_off_at_edges(void **state)
 {
     (void)state;
@@ -197,7 +199,8 @@ static void cut_off_at_edges(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Neither a small move nor a slightly larger sensor makes it jump, over edges of cells and of the face. */
+/* Neither a small move nor a slightly larger sensor makes it jump, over edges of cells and of the
+ * face. */
 static void no_jumps(void **state)
 {
     (void)state;
@@ -221,7 +224,7 @@ static void no_jumps(void **state)
     }
 }
 
-/* ---- particles that come, go and are sorted ---- */
+/* ---- added, removed and permuted particles ---- */
 
 static void assert_like_new(mps_sim *sim, int32_t id)
 {
@@ -241,7 +244,8 @@ static void turn_round(mps_sim *sim)
     sim->world.lists.neighbours.valid = false;
 }
 
-/* Ids of the wall particles whose coordinates are within `reach` of the sensor's; returns how many. */
+/* Ids of the wall particles whose coordinates are within `reach` of the sensor's; returns how
+ * many. */
 static int64_t walls_within(mps_sim *sim, double reach, int64_t *ids)
 {
     const mps__particles *s = &sim->world.particles;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Moving averages and samples: pressures written after each step are a known signal at known times. */
+/* Moving averages and samples: pressures written after each step are a known signal at known
+ * times. */
 #include "../tags.h"
 #include "probe_fixture.h"
 
@@ -68,7 +69,7 @@ static void average_of_a_line(void **state)
     step(sim, 0);
     for (int k = 1; k < 40; k++) {
         step(sim, k);
-        /* the first pressure holds from 0 to the end of the first step */
+        /* the first pressure is used from 0 to the end of the first step */
         for (int a = 0; a < 3; a++) {
             const double t = now(sim), T = fmin(averages[a], t), early = fmax(0, 1e-3 - (t - T));
             const double mean = (line(1e-3) * early +
@@ -125,7 +126,8 @@ static void check_samples(mps_sim *sim, int32_t id, double rate, double average,
     if (first == 0) ASSERT_NEAR(v[0], line(1e-3), 1e-9);
 }
 
-/* Slower and faster than the steps, with and without an average; k / rate may be the end of a step. */
+/* Slower and faster than the steps, with and without an average; k / rate may be the end of a
+ * step. */
 static void samples_of_a_line(void **state)
 {
     (void)state;
@@ -173,7 +175,7 @@ static void clearing(void **state)
     mps_sim_destroy(sim);
 }
 
-/* All components; the last step of a run is there, and its end is a sample. */
+/* All components; the last step of a run is included, and its end is a sample. */
 static void samples_of_forces(void **state)
 {
     (void)state;
@@ -194,7 +196,7 @@ static void samples_of_forces(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A gauge has a value before the first step, and the run is the same with and without probes that watch it. */
+/* A gauge has a value before the first step, and probes do not change the run. */
 static void samples_of_a_gauge(void **state)
 {
     (void)state;

@@ -57,7 +57,8 @@ static const mps_pass_info *find(const passes *all, const char *name)
 
 /* ---- the list -------------------------------------------------------------------------------- */
 
-/* Parts outside of hooks stand where they run: behind MPS_POPULATE, behind MPS_LIMIT, at the end. */
+/* Passes outside of hooks are listed where they run: after MPS_POPULATE, after MPS_LIMIT, at the
+ * end. */
 static void check_order(const passes *all)
 {
     static const char *const first[] = {"search", "undo", "open"};
@@ -136,13 +137,13 @@ static void list_of_the_presets(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A pass that has nothing to do is not run: no body carries the tank. */
+/* A pass that is not needed is not run: no rigid body carries the tank. */
 static int64_t calls_of(const mps_pass_info *p, int64_t steps)
 {
     return strcmp(p->name, "body") == 0 ? 0 : steps;
 }
 
-/* They stand where they run, and their time is not that of the parts around them. */
+/* They are listed where they run, and their time is not included in other passes. */
 static void verbs_before_the_step(void **state)
 {
     (void)state;
@@ -195,7 +196,7 @@ static void channels_of_passes_are_not_listed(void **state)
     assert_int_equal(mps_channel_info_init(&c, sizeof c), MPS_OK);
     for (int32_t k = 0; mps_channel_info_get(sim, k, &c) == MPS_OK; k++) {
         for (int h = 0; h < 4; h++) assert_string_not_equal(c.name, hidden[h]);
-        assert_true(c.own ? others == 0 : 1); /* the library's own come first */
+        assert_true(c.own ? others == 0 : 1); /* those of the library are first */
         own += c.own;
         others += !c.own;
     }
@@ -285,7 +286,8 @@ static void costs_begin_again(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Of a step that fails the parts that were begun and done count, and the next step adds up again. */
+/* Of a step that fails the parts that were begun and done count, and the next step adds up
+ * again. */
 static void failed_step(void **state)
 {
     (void)state;

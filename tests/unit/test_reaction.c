@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps_stage_reaction(): what solids do to the fluid through verbs reaches force probes, works of the walls and the lines of the budgets. */
+/* mps_stage_reaction(): forces of solids on the fluid by verbs are included in force probes, works
+ * of the walls and the lines of the budgets. */
 #include "probe_fixture.h"
 #include <mps/reaction.h>
 #include <stdio.h>
 
-/* Sums of a few hundred terms, of this size, are exact to this part. */
+/* Relative error of sums of several hundred terms of this size. */
 static const double rounding = 1e-12;
 
 /* ---- a plug-in that drags the fluid along ---- */
@@ -81,7 +82,7 @@ static mps_momentum momentum_of(mps_sim *sim)
     return m;
 }
 
-/* A force probe of the state at its time, about a place. */
+/* An instantaneous force probe, about a point. */
 static int32_t probe_force(mps_sim *sim, const char *part, double x, double y)
 {
     mps_probe p = probe_of(MPS_PROBE_FORCE, x, y, 0);
@@ -124,8 +125,9 @@ static mps_sim *drop_in_a_tank(double *speed)
     return sim;
 }
 
-/* A screen drags a drop from rest to the speed U of its tank: force and moment in probes of the screen and of all solids, work m U v, of
- * which m v^2/2 is in the drop, v = U (1 - exp(-rate t)), and the rest is dissipated, on the line of plug-ins. */
+/* A screen accelerates a droplet from rest to the speed U of its tank: force and moment in probes
+ * of the screen and of all solids, work m U v, of which m v^2/2 is in the droplet, v = U (1 -
+ * exp(-rate t)), and the rest is dissipated, on the line of plug-ins. */
 static void dragged_along(void **state)
 {
     (void)state;
@@ -183,7 +185,8 @@ static void dragged_along(void **state)
     }
 }
 
-/* Without a report the same push comes from nowhere: energy that it brings is negative loss, and no probe shows it. */
+/* Without a report the force has no source: its energy is a negative loss, and no probe includes
+ * it. */
 static void without_a_report(void **state)
 {
     (void)state;
@@ -204,8 +207,8 @@ static void without_a_report(void **state)
 
 /* ---- the library's own ---- */
 
-/* Friction at the walls of a tank of syrup that turns: what it gives the liquid is what probes show, by parts too, and what is lost is
- * positive. */
+/* Friction at the walls of a rotating tank of syrup: its impulse on the liquid is that of probes,
+ * also by parts, and the loss is positive. */
 static void friction_of_walls(void **state)
 {
     (void)state;
@@ -238,7 +241,7 @@ static void friction_of_walls(void **state)
             for (int d = 0; d < 2; d++) {
                 const double now = m.walls[d] + m.reaction[d];
                 most = fmax(most, fabs(m.gravity[1]));
-                /* the probe has the areas as they are turned at the end of the step */
+                /* the probe uses the rotated areas at the end of the step */
                 ASSERT_NEAR(-force[d] * dt, now - before[d], 0.02 * hypot(force[0], force[1]) * dt);
                 before[d] = now;
             }
@@ -344,7 +347,7 @@ static void refusals(void **state)
     }
 }
 
-/* Names of parts are those of the table, and there is a limit. */
+/* Names of parts are those of the table, and their number is limited. */
 static void names_of_parts(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Level of the pressures of a closed tank: none, by a layer of gas, by the lid; and the messages. */
+/* Pressure datum of a closed tank: none, by a layer of gas, by the lid; and the messages. */
 #include "phase_fixture.h"
 #include <stdio.h>
 
@@ -17,7 +17,7 @@ static void listen(void *user, int level, const char *text)
 enum { ROWS = 8 };
 static const double dp = 0.05, side = 0.4;
 
-/* A closed tank full of water, at rest or turned by an angle about its corner. Scheme imps. */
+/* A closed tank full of water, at rest or rotated by an angle about its corner. Scheme imps. */
 static mps_sim *full_tank(int dim, double angle)
 {
     mps_config config;
@@ -38,7 +38,8 @@ static mps_sim *full_tank(int dim, double angle)
     return sim;
 }
 
-/* Mean of p over walls and fluid in the equation; p + rho g y, which is one number in a fluid at rest, goes to `level`. */
+/* Mean of p over walls and fluid in the equation; p + rho g y, which is constant in a fluid at
+ * rest, is written to `level`. */
 static double mean_pressure(mps_sim *sim, int dim, double *level)
 {
     const int32_t *kinds;
@@ -62,7 +63,8 @@ static double mean_pressure(mps_sim *sim, int dim, double *level)
     return sum / count;
 }
 
-/* Without a reference the mean is 0, and that is said once; the lid takes its own pressure off, and the flow is the same to rounding. */
+/* Without a reference the mean is 0, and this is logged once; the model of the lid subtracts the
+ * pressure at the lid, and the flow is the same within rounding. */
 static void gauge_by_lid(void **state)
 {
     (void)state;
@@ -96,7 +98,7 @@ static void gauge_by_lid(void **state)
     }
 }
 
-/* The level of a fluid at rest follows the highest corner of a turned tank without jumps. */
+/* The level of a fluid at rest follows the highest corner of a rotated tank without jumps. */
 static void gauge_of_turned_tanks(void **state)
 {
     (void)state;
@@ -130,7 +132,8 @@ static void gauge_of_turned_tanks(void **state)
     }
 }
 
-/* An open tank has a free surface: the model of the lid changes no byte, and no message is logged. */
+/* An open tank has a free surface: the model of the lid changes no byte, and no message is
+ * logged. */
 static void lid_of_open_tank(void **state)
 {
     (void)state;
@@ -153,7 +156,7 @@ static void lid_of_open_tank(void **state)
     free(p[1]);
 }
 
-/* A compressible phase is a level. */
+/* A compressible phase is a pressure datum. */
 static void lid_beside_gas(void **state)
 {
     (void)state;
@@ -167,7 +170,7 @@ static void lid_beside_gas(void **state)
     mps_sim_destroy(sim);
 }
 
-/* p = 0 in the uppermost layer of the phase, and there alone. */
+/* p = 0 in the uppermost layer of the phase only. */
 static void layer_of_gas(void **state)
 {
     (void)state;

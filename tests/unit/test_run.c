@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps_run(): the end is met exactly, in whole steps, the monitor may stop it, threads do not matter. */
+/* mps_run(): the end is reached exactly, in whole steps, the monitor may stop it, threads have no
+ * effect. */
 #include "tank_fixture.h"
 
 static const double dp = 0.05;
@@ -72,7 +73,7 @@ static void run_to_the_end(void **state)
     }
 }
 
-/* n fixed steps to n dt, whatever the sums round to. */
+/* n fixed steps to n dt, for any rounding of sums. */
 static void whole_steps(void **state)
 {
     (void)state;
@@ -91,7 +92,8 @@ static void whole_steps(void **state)
         }
 }
 
-/* Steps of a drop that falls get shorter and shorter: the one that would end the run falls short by a thousandth. */
+/* Steps of a drop that falls get shorter and shorter: the one that would end the run falls short by
+ * a thousandth. */
 static void no_sliver(void **state)
 {
     (void)state;
@@ -106,7 +108,7 @@ static void no_sliver(void **state)
         ASSERT_OK(sim, mps_run(sim, end, monitor, &w));
         assert_true(w.t == end && w.calls == 2 && w.least > 0.49 * dt);
         ASSERT_STATUS(sim, (w.stop_after = 3, mps_run(sim, 10, monitor, &w)), MPS_W_STOPPED);
-        assert_true(w.dt > 0.9 * dt); /* the share was no limit of the next step */
+        assert_true(w.dt > 0.9 * dt); /* the shortened step did not limit the next one */
         mps_sim_destroy(sim);
     }
 }
@@ -185,7 +187,7 @@ static void threads_agree(void **state)
     for (int k = 0; k < 3; k++) mps_sim_destroy(sim[k]);
 }
 
-/* Programs add up lengths: whatever the end, a loop to it ends, and the time is the end to the last bit. */
+/* Programs add up lengths: a loop to any end terminates, and the time is bitwise the end. */
 static void loops_of_hosts(void **state)
 {
     static const double lengths[] = {0.01, 0.1, 1.0 / 3, 0.07};
@@ -211,7 +213,8 @@ static void loops_of_hosts(void **state)
     }
 }
 
-/* Within rounding of the present time there is no step, before it as well as after it; farther back there is an error. */
+/* Within rounding of the current time, before or after it, there is no step; an earlier end is an
+ * error. */
 static void rounding_is_no_step(void **state)
 {
     const double ends[] = {2, 2 + 1e-15, 2 - 1e-15, 2 + 1.9e-12, 2 - 1.9e-12};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The loops by which a device puts particles in order and finds candidates, run on the host: the same as the host's own search. */
+/* The loops by which a device sorts particles and finds candidates, run on the host: equal to the
+ * search of the host. */
 #include "search_fixture.h"
 
 static void of_any_size(void **state)
@@ -12,7 +13,7 @@ static void of_any_size(void **state)
                 search_both(dim, size[k], which & 1, which & 2);
 }
 
-/* A row that the host does not have room for in the stack: the loops tell, and fill nothing. */
+/* A row that exceeds the stack buffer of the host: the loops report it, and write nothing. */
 static void long_rows_are_told(void **state)
 {
     mps__context context = {.allocator = mps__allocator_default()};
@@ -37,7 +38,7 @@ static void long_rows_are_told(void **state)
     tank_free(&t);
 }
 
-/* What the host refuses the loops leave to it. */
+/* Inputs that the host refuses are left to it. */
 static void no_order(void **state)
 {
     static const double far[] = {NAN, INFINITY, -1e300};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* separation.void and the solution with least pressures (bounds.c): walls beside void do not pull,
- * what needs suction keeps it. */
+/* separation.void and the solution with least pressures (bounds.c): walls next to void have no
+ * suction, necessary suction is kept. */
 #define _POSIX_C_SOURCE 200809L
 #include "tank_fixture.h"
 #include <mps/model.h>
@@ -12,11 +12,11 @@ static const double GRAVITY = 9.81, RHO = 1000;
 
 /* Of the steps so far. */
 static struct {
-    double least;      /* lowest pressure of walls beside void, over that of a static liquid as
-                          deep as the near radius */
+    double least;      /* lowest pressure of walls next to void, over that of a static liquid with
+                          the near radius as depth */
     double suction;    /* sum of -p dt over all walls that count, where p < 0 [Pa s] */
     const bool *among; /* by id: walls that count; NULL: all */
-    int64_t seen;      /* pressures of walls beside void */
+    int64_t seen;      /* pressures of walls next to void */
 } spy;
 
 enum { PRESSURE, REGION, TANK_ACCELERATION, USES };
@@ -119,9 +119,9 @@ static int32_t run_to(mps_sim *sim, double t)
     return most;
 }
 
-/* ---- no suction beside void ---- */
+/* ---- no suction next to void ---- */
 
-/* Walls of a scene that stand within the box from lo to hi; free() them. */
+/* Walls of a scene within the box from lo to hi; free() them. */
 static bool *walls_between(mps_sim *sim, const double *lo, const double *hi)
 {
     const int64_t *id;
@@ -202,7 +202,7 @@ static struct {
     int64_t zero, below, none;
 } limits;
 
-/* Of wall i by all particles within the near radius; INFINITY: no void there. */
+/* For wall i by all particles within the near radius; INFINITY: no void there. */
 static double least_pressure(const mps_stage *s, int64_t i)
 {
     const mps_view *v = s->view;
@@ -282,8 +282,8 @@ static mps_sim *jumping(int32_t dim, double depth)
     return sim;
 }
 
-/* Sum of p dt over the wall that leaves the liquid, where p < 0, in the first steps of a jump; hold
- * < 0: without the model. */
+/* Sum of p dt over the wall that moves away from the liquid, where p < 0, in the first steps of a
+ * jump; hold < 0: without the model. */
 static double suction_of_jump(int32_t dim, double hold)
 {
     const double lo[2] = {0.79, 0.02}, hi[2] = {0.81, 0.4};
@@ -307,11 +307,11 @@ static void jump_keeps_its_suction(void **state)
         const double without = suction_of_jump(dim, -1), held = suction_of_jump(dim, 5),
                      at_once = suction_of_jump(dim, 0);
         assert_true(without > 0 && held == without);
-        assert_true(at_once < 0.95 * without); /* so `hold` is what keeps it */
+        assert_true(at_once < 0.95 * without); /* so `hold` keeps it */
     }
 }
 
-/* Nothing fixes the level of a full tank: no wall of it can have a least pressure. */
+/* A full tank has no pressure datum: none of its walls can have a lower bound. */
 static void full_tank_pulls(void **state)
 {
     (void)state;
@@ -329,7 +329,7 @@ static void full_tank_pulls(void **state)
     }
 }
 
-/* A step cut short by its caller is no jump: walls beside void have let go before it, in it and
+/* A step shortened by its caller is no jump: walls next to void are separated before it, in it and
  * after it. */
 static void short_step_is_no_jump(void **state)
 {
@@ -347,7 +347,7 @@ static void short_step_is_no_jump(void **state)
 
 /* ---- state ---- */
 
-/* The same pressures, places and velocities, to the bit. */
+/* Bitwise equal pressures, positions and velocities. */
 static void assert_same(mps_sim *a, mps_sim *b)
 {
     static const char *const fields[] = {"position", "velocity", "pressure"};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A ship's six degrees of freedom: against Rodrigues' formula on skew axes, by virtual work, there and back, signs, tables. */
+/* A ship's six degrees of freedom: against Rodrigues' formula on skew axes, by virtual work, round
+ * trips, signs, tables. */
 #include "tank_fixture.h"
 
 static const double pi = 3.14159265358979323846;
@@ -26,7 +27,7 @@ static void cross(const double *a, const double *b, double *out)
     out[2] = a[0] * b[1] - a[1] * b[0];
 }
 
-/* x turned by an angle about a unit vector e: x cos + (e x x) sin + e (e.x) (1 - cos). */
+/* x rotated by an angle about a unit vector e: x cos + (e x x) sin + e (e.x) (1 - cos). */
 static void rodrigues(const double *e, double angle, const double *x, double *out)
 {
     double across[3];
@@ -109,7 +110,8 @@ static mps_motion_pose pose_of(const mps_motion_state *tank)
 
 /* ---- tests ---- */
 
-/* R is the product of three turns about the axes at rest, the first rotation last; and the same again, about axes that turn. */
+/* R is the product of three rotations about the axes at rest, the first rotation last; also by
+ * intrinsic rotations. */
 static void composes_on_skew_axes(void **state)
 {
     (void)state;
@@ -149,7 +151,8 @@ static int sail(void *user, double t, mps_motion_state *tank)
     return 0;
 }
 
-/* A tank whose centre is the ship's origin takes a point to o + s + R (X - o), with the velocity of a rigid body. */
+/* A tank whose centre is the origin of the ship maps a point to o + s + R (X - o), with the
+ * velocity of a rigid body. */
 static void carries_a_tank(void **state)
 {
     (void)state;
@@ -176,7 +179,7 @@ static void carries_a_tank(void **state)
     }
 }
 
-/* The motion t seconds later: m's derivatives are those of this polynomial at 0. */
+/* The motion after t seconds: derivatives of m are those of this polynomial at 0. */
 static mps_ship_motion later(const mps_ship_motion *m, double t)
 {
     mps_ship_motion next = *m;
@@ -187,7 +190,8 @@ static mps_ship_motion later(const mps_ship_motion *m, double t)
     return next;
 }
 
-/* dR/dt = omega x R, and alpha is the derivative of omega; so are the rates of the tank's angles those of its angles. */
+/* dR/dt = omega x R, and alpha is the derivative of omega; so are the rates of the tank's angles
+ * those of its angles. */
 static void rates_are_derivatives(void **state)
 {
     (void)state;
@@ -214,7 +218,7 @@ static void rates_are_derivatives(void **state)
         }
         for (int d = 0; d < MPS_DOF_COUNT; d++) {
             const double step = b.value[d] - a.value[d];
-            if (fabs(step) > 1) continue; /* past half a turn */
+            if (fabs(step) > 1) continue; /* beyond 180 degrees */
             ASSERT_NEAR(step / (2 * h), now.rate[d], 1e-3);
             ASSERT_NEAR((b.rate[d] - a.rate[d]) / (2 * h), now.accel[d], 1e-2);
         }
@@ -248,7 +252,8 @@ static void there_and_back(void **state)
     }
 }
 
-/* F.v + M.omega of a load about any point of the tank is the same in the lab, along fixed axes and along those of the body. */
+/* F.v + M.omega of a load about any point of the tank is the same in the lab, along fixed axes and
+ * along those of the body. */
 static void virtual_work(void **state)
 {
     (void)state;
@@ -284,7 +289,8 @@ static void virtual_work(void **state)
     }
 }
 
-/* Where a point beside, before or above the origin goes, in the axes x forward, y up, z to starboard of the usual ship. */
+/* Displacement of a point beside, in front of or above the origin, in the axes x forward, y up, z
+ * to starboard of the usual ship. */
 static void signs(void **state)
 {
     (void)state;
@@ -339,7 +345,7 @@ static void usual_order_is_the_tanks(void **state)
     ASSERT_NEAR(tank.value[MPS_ROTATE_Z], -0.5, 1e-14);
 }
 
-/* A cross-section seen from aft: x to starboard, y up, the bow along -z. It may turn over. */
+/* A cross-section seen from aft: x to starboard, y up, the bow along -z. It may capsize. */
 static void section_in_2d(void **state)
 {
     (void)state;
@@ -365,7 +371,7 @@ static void section_in_2d(void **state)
     ASSERT_NEAR(values[2], before, 0);
 }
 
-/* A heading that passes 180 degrees goes on, in the column of the table as well. */
+/* A heading that passes 180 degrees is continuous, also in the column of the table. */
 static void heading_goes_round(void **state)
 {
     (void)state;

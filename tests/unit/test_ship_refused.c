@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* What the functions of mps/ship.h and the matrices of poses refuse, and that their outputs stay. */
+/* Refusals of the functions of mps/ship.h and of pose matrices; outputs are unchanged. */
 #include "tank_fixture.h"
 
 static const double pi = 3.14159265358979323846;
@@ -82,7 +82,8 @@ static void bad_arguments(void **state)
     for (int d = 0; d < 6; d++) assert_true(out[d] == 0);
 }
 
-/* A quarter turn about the second axis with another angle has no angles; a whole turn about it alone has. */
+/* A rotation by 90 degrees about the second axis with another angle has no unique angles; a
+ * rotation about this axis only has. */
 static void a_quarter_turn(void **state)
 {
     (void)state;

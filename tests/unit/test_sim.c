@@ -90,7 +90,7 @@ static void bad_configuration(void **state)
     assert_non_null(mps_sim_error(NULL));
 }
 
-/* A text longer than the place for it is cut, not written past it; no place is fine too. */
+/* A text longer than its buffer is truncated, without overflow; NULL is allowed too. */
 static void error_text(void **state)
 {
     (void)state;
@@ -208,7 +208,7 @@ static void append_warning(void *user, int level, const char *text)
     if (level == MPS_LOG_WARNING) snprintf(all + strlen(all), 300 - strlen(all), "%s;", text);
 }
 
-/* A phase that nothing is made of is most likely a mistake, and is said once. */
+/* A phase without particles is probably an error, and is logged once. */
 static void empty_phase(void **state)
 {
     (void)state;
@@ -301,11 +301,11 @@ static void settings(void **state)
     ASSERT_OK(sim, mps_model_get(sim, "source.mixed", "gamma", &v)); /* by the full name too */
     assert_true(v == 0.25 && initial == 0.01);
     assert_int_equal(mps_model_get(sim, "source", "gamma", NULL), MPS_E_ARG);
-    ASSERT_OK(sim, mps_preset_use(sim, "imps.paper")); /* settings made before are gone */
+    ASSERT_OK(sim, mps_preset_use(sim, "imps.paper")); /* previous settings are discarded */
     ASSERT_OK(sim, mps_model_get(sim, "source", "gamma", &v));
     assert_true(v == initial);
     assert_true(model_active(sim, "surface.asymmetry") && !model_active(sim, "surface.original"));
-    ASSERT_OK(sim, mps_model_use(sim, "surface.original")); /* a slot holds one */
+    ASSERT_OK(sim, mps_model_use(sim, "surface.original")); /* a slot has one model */
     assert_true(!model_active(sim, "surface.asymmetry") && model_active(sim, "surface.original"));
     double high;
     ASSERT_STATUS(sim, mps_model_get(sim, "surface.asymmetry", "high", &high),

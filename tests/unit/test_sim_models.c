@@ -93,7 +93,7 @@ static void too_many_models(void **state)
     mps_sim_destroy(sim);
 }
 
-/* ---- what is missing -------------------------------------------------------------------------- */
+/* ---- what is missing ------------------------------------------------------------------------- */
 
 static char told[2048];
 
@@ -111,7 +111,7 @@ static int count_of(const char *word)
     return count;
 }
 
-/* Without a gradient or a source the liquid falls together: said in the first step after it, once. */
+/* Without a gradient or a source the liquid collapses: logged in the first step after it, once. */
 static void missing_parts(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Stepping: a user's model, and steps that fail - with the state as before, bit for bit. */
+/* Stepping: a user's model, and failed steps, with a bitwise unchanged state. */
 #include "push_fixture.h"
 
 /* ---- scenes ---------------------------------------------------------------------------------- */
@@ -49,8 +49,8 @@ static void acceleration(void **state)
     assert_true(test.created == 1 && test.destroyed == 1);
 }
 
-/* Whatever verb fails, the step did not happen - also not in what no call returns: the run goes on
- * as one without a failure. */
+/* If any verb fails, the step has no effect, also not on internal state: the run continues like one
+ * without a failure. */
 static void failing_model(void **state)
 {
     (void)state;
@@ -118,7 +118,7 @@ static void values_out_of_range(void **state)
         const picture after = take_picture(sim);
         assert_same(&before, &after);
     }
-    test.region = MPS_REGION_DRY; /* the last one there is */
+    test.region = MPS_REGION_DRY; /* the last one */
     ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
     mps_sim_destroy(sim);
 }

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Slots in which no particle fits: the log tells where they are and how wide. */
+/* Slots that are too narrow for a particle: the log contains their position and width. */
 #include "sim.h"
 #include "tank_fixture.h"
 #include <stdio.h>
@@ -28,7 +28,7 @@ static mps_sim *tank(int32_t dim)
     return sim;
 }
 
-/* Warnings of the first fill; a second one says nothing. */
+/* Warnings of the first fill; a second one logs nothing. */
 static int warnings(mps_sim *sim)
 {
     const double lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.2, 0.2}, all[3] = {0.6, 0.4, 0.2};
@@ -126,7 +126,7 @@ static void in_a_solid(void **state)
         solid.lo[1] = 0.05;
         solid.hi[1] = 0.35;
         ASSERT_OK(sim, mps_solid_add(sim, &solid));
-        assert_int_equal(warnings(sim), k == 0); /* a row of the lattice lies in the middle */
+        assert_int_equal(warnings(sim), k == 0); /* a row of the lattice is in the middle */
         if (k == 0 &&
             !strstr(told, "between \"blocks\" and \"blocks\" is 0.02 m wide, 1 dp, at (0.3, "))
             fail_msg("%s", told);

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Snapshots: what goes on from one is what never went another way, to the last bit. */
+/* Snapshots: steps after a restore are bitwise those of a run without other steps. */
 #define _POSIX_C_SOURCE 200809L
 #include "checkpoint_fixture.h"
 
@@ -13,7 +13,7 @@ static mps_snapshot *taken(mps_sim *sim)
 
 /* ---- the same bytes ---- */
 
-/* From the start and later, back over one step and over several searches, once and again. */
+/* From the start and later, restored over one step and over several searches, repeatedly. */
 static void goes_back(void **state)
 {
     static const int64_t at[] = {0, 1, 6, 22}, away[] = {1, 8, 1, 3};
@@ -40,7 +40,7 @@ static void goes_back(void **state)
     }
 }
 
-/* A thousand trials of any length, of which none leaves anything. */
+/* A thousand trials of any length without a permanent effect. */
 static void thousand_times(void **state)
 {
     enum { TIMES = 1000 };
@@ -93,7 +93,7 @@ static void add_drop(mps_sim *sim)
     ASSERT_OK(sim, mps_particles_add(sim, &block, NULL));
 }
 
-/* Particles that came and went meanwhile are gone and there again; ids too. */
+/* Particles added or removed since are removed and restored; ids too. */
 static void other_particles(void **state)
 {
     (void)state;
@@ -157,7 +157,7 @@ static void two_ways(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A probe that was added later measures from the time of the snapshot on. */
+/* A probe that was added later measures from the time of the snapshot. */
 static void later_probe(void **state)
 {
     mps_sim *through = shaken(), *sim = shaken();
@@ -264,7 +264,8 @@ static void refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Settings and motions are free: the present ones go on from the state of the snapshot. */
+/* Settings and motions are not restored: the current ones continue from the state of the
+ * snapshot. */
 static void settings_are_free(void **state)
 {
     mps_sim *through = shaken(), *sim = shaken();

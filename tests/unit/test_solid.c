@@ -31,7 +31,7 @@ static double box(void *user, const double *x)
     return -(fmin(most, 0) + sqrt(out2));
 }
 
-/* The same as the ball, but no true distance: too steep by a factor that varies. */
+/* The ball, but without a true distance: too steep by a varying factor. */
 static double steep_ball(void *user, const double *x)
 {
     return ball(user, x) * (2 + x[0]);
@@ -48,7 +48,8 @@ static double column(void *user, const double *x)
     return hypot(x[0] - 0.5, x[2] - 0.5) - 0.2;
 }
 
-/* Sums over the wall particles: |area|, area, and the volume enclosed by the areas (divergence theorem). */
+/* Sums over the wall particles: |area|, area, and the volume enclosed by the areas (divergence
+ * theorem). */
 typedef struct sums {
     double area, net[3], volume, widest, closest;
     int64_t walls;
@@ -94,7 +95,8 @@ typedef struct surface_case {
     int invert;
 } surface_case;
 
-/* Edge particles carry the area vectors of both faces: their lengths fall short of the surface, their sums do not. */
+/* Edge particles carry the area vectors of both faces: their lengths fall short of the surface,
+ * their sums do not. */
 static void surfaces(void **state)
 {
     const surface_case list[] = {
@@ -127,7 +129,8 @@ static void surfaces(void **state)
     }
 }
 
-/* A box on the lattice is the tank of the same size: same walls, same areas, same places for the fluid. */
+/* A box on the lattice is the tank of the same size: same walls, same areas, same points for the
+ * fluid. */
 static void a_box_is_a_tank(void **state)
 {
     (void)state;
@@ -164,7 +167,7 @@ static int everywhere(void *user, const double *x)
     return 1;
 }
 
-/* No fluid in the solid or in the half cells of its walls; as much as there is room for. */
+/* No fluid in the solid or in the half cells of its walls; all other points are filled. */
 static void fills_keep_out(void **state)
 {
     (void)state;
@@ -209,7 +212,7 @@ static void two_tanks(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A column through a tank: walls between floor and ceiling only, what it stands on is covered. */
+/* A column through a tank: walls between floor and ceiling only, the walls below it are covered. */
 static void column_in_a_tank(void **state)
 {
     (void)state;

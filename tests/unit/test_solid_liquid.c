@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Liquid in round tanks: at rest, in rolling motion, beside sloping walls. */
+/* Liquid in round tanks: at rest, in rolling motion, next to inclined walls. */
 #include "solid_fixture.h"
 
 /* ---- liquid in round tanks ---- */
@@ -37,7 +37,8 @@ static int64_t through_the_wall(const mps_sim *sim)
     return count;
 }
 
-/* Pressure at the bottom is rho g h, the force the weight of what is between wall and level. */
+/* Pressure at the bottom is rho g h, the force is the weight of the liquid between wall and
+ * level. */
 static void rest(int dim, double dp, double t_end, double volume)
 {
     mps_sim *sim = half_full(dim, dp);
@@ -55,9 +56,8 @@ static void rest(int dim, double dp, double t_end, double volume)
     ASSERT_OK(sim, mps_probe_read(sim, bottom, &pressure));
     ASSERT_OK(sim, mps_probe_read(sim, force, values));
     ASSERT_NEAR(pressure / 9810, 1, 0.02);
-    ASSERT_NEAR(
-        -values[1] / (9810 * volume), 1,
-        0.03); /* 1.022 at first; the level creeps up by another 0.005 R in the next 1.5 s */
+    ASSERT_NEAR(-values[1] / (9810 * volume), 1,
+                0.03); /* 1.022 at first; the level rises by another 0.005 R in the next 1.5 s */
     ASSERT_NEAR(values[0] / (9810 * volume), 0, 0.01);
     /* of a column that falls by dp: 1/1000 of its energy */
     assert_true(kinetic(sim) < 1e-3 * 9810 * volume * dp);
@@ -65,14 +65,16 @@ static void rest(int dim, double dp, double t_end, double volume)
     mps_sim_destroy(sim);
 }
 
-/* Floor and side walls at 45 degrees; liquid above the floor and between the walls, which are 0.4 m apart at the floor. */
+/* Floor and side walls at 45 degrees; liquid above the floor and between the walls, which are 0.4 m
+ * apart at the floor. */
 static double trapezoid(void *user, const double *x)
 {
     (void)user;
     return fmin(fmin(x[1], 0.4 - x[1]), sqrt(0.5) * (0.2 - fabs(x[0]) + x[1]));
 }
 
-/* Rows of the lattice are 0.7 dp apart along such walls: what the set-up is too dense there must not come out as an impact at the start. */
+/* Rows of the lattice are 0.7 dp apart along such walls: the initial excess density there must not
+ * cause an impact. */
 static void start_beside_sloping_walls(void **state)
 {
     static const double spacing[] = {0.02, 0.01}, place[3][2] = {{0, 0}, {0.25, 0.05}, {-0.3, 0.1}};
@@ -118,7 +120,8 @@ static void rest_in_a_sphere(void **state)
     rest(3, 0.125, 0.5, 2 * pi / 3);
 }
 
-/* A circle that turns about its centre slides along its liquid: rigid rotation would have rho pi w^2/8. */
+/* A circle that rotates about its centre slides along its liquid: rigid rotation would have rho pi
+ * w^2/8. */
 static void rolling_circle(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Choice, limits and registration of pressure solvers, and the texts of what goes wrong. */
+/* Choice, limits and registration of pressure solvers, and error texts. */
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
@@ -12,14 +12,14 @@
 
 #include "sim.h"
 
-/* ---- a solver and a preconditioner that do what they are told ---- */
+/* ---- a solver and a preconditioner with prescribed results ---- */
 
 static int live;              /* states alive */
 static int create_result;     /* what create answers */
-static void *got_user;        /* what *self held when create was called last */
+static void *got_user;        /* value of *self on entry to the last create */
 static mps_allocator made_by; /* the allocator that create got */
 static mps_ppe_result told;   /* what solve reports */
-static double told_p;         /* the pressure it gives */
+static double told_p;         /* its resulting pressure */
 static mps_ppe_problem seen;  /* the problem it got */
 
 static int dummy_create(const mps_allocator *allocator, void **self)
@@ -395,7 +395,7 @@ static int failing_setup(void *self, const mps_ppe_problem *problem)
     return MPS_PPE_BREAKDOWN;
 }
 
-/* Where the default preconditioner fails jacobi takes its place, and says so. */
+/* If the default preconditioner fails, jacobi replaces it, with a logged warning. */
 static void test_fall_back(void **state)
 {
     mps_sim *sim = *state;
@@ -414,7 +414,7 @@ static void test_fall_back(void **state)
         assert_non_null(strstr(logged, "'auxgrid' broke down"));
         assert_non_null(strstr(logged, "with 'jacobi' the solver converged"));
     }
-    logged[0] = 0; /* one that was asked for by name is not replaced */
+    logged[0] = 0; /* one that was selected by name is not replaced */
     assert_int_equal(mps_solver_use(sim, "sundials.pcg", "ic0"), MPS_OK);
     for (int k = 0; k < s->preconditioners; k++)
         if (strcmp(s->preconditioner_name[k], "ic0") == 0)

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* source.volume where densities meet: faces by mass, and what is asked for where the volume is torn. */
+/* source.volume at interfaces of densities: faces by mass, and the source where the volume is
+ * torn. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
 static const double DT = 0.02, water = 1000, air = 1.25;
 
-/* Water (phase 0) over a tilted plane below which is air (phase 1), or all of it phase 0; free() the phases. */
+/* Water (phase 0) over a tilted plane below which is air (phase 1), or all of it phase 0; free()
+ * the phases. */
 static cloud two_layers(int dim, double jitter, int32_t **phase)
 {
     const int side = dim == 2 ? 16 : 10;
@@ -16,7 +18,8 @@ static cloud two_layers(int dim, double jitter, int32_t **phase)
     return c;
 }
 
-/* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter, `pace` how much of it phase 0 waits for. */
+/* spy.rhs of the source alone, nothing relaxed; phase 1 is `ratio` times lighter, `pace` how much
+ * of it phase 0 waits for. */
 static void source(const cloud *c, const int32_t *phase, double ratio, const double *u,
                    double strain, double pace)
 {
@@ -33,7 +36,8 @@ static void source(const cloud *c, const int32_t *phase, double ratio, const dou
     mps_sim_destroy(sim);
 }
 
-/* Is M - 0.501 of the faces by mass positive definite, so that its inverse is not bounded? Also says whether another density is near. */
+/* Is M - 0.501 of the faces by mass positive definite, so that its inverse is not bounded? Also
+ * returns whether another density is near. */
 static bool regular(const cloud *c, const int32_t *phase, double ratio, int64_t i, bool *beside)
 {
     const int dim = c->dim;
@@ -66,7 +70,8 @@ static bool inside(const cloud *c, int64_t i)
     return cloud_inside(c, i, (const int[3]){side, side, side}, 2.3 * CLOUD_DP);
 }
 
-/* u = A x: the source is -(tr A - dt tr(A A)/2)/dt whichever phases are side by side, on a lattice and on a jittered one. */
+/* u = A x: the source is -(tr A - dt tr(A A)/2)/dt whichever phases are side by side, on a lattice
+ * and on a jittered one. */
 static void linear_flow(void **state)
 {
     (void)state;
@@ -123,7 +128,8 @@ static double influence(int dim, double ratio, int moved, int whose)
     return most;
 }
 
-/* The source of water takes of the air beside it the share of the ratio of densities; that of air takes all of the water. */
+/* In the source of water adjacent air has the weight of the ratio of densities; in that of air
+ * adjacent water has the weight 1. */
 static void water_minds_water(void **state)
 {
     (void)state;
@@ -161,7 +167,7 @@ static void equal_densities(void **state)
     }
 }
 
-/* ---- pace of the denser fluid ------------------------------------------------------------------------------------------------ */
+/* ---- pace of the denser fluid ---------------------------------------------------------------- */
 
 /* Multiply the velocities of one phase. */
 static void speed_up(const cloud *c, const int32_t *phase, int of, double factor, double *u)
@@ -181,8 +187,9 @@ static double largest(const cloud *c, const int32_t *phase, int of, const double
     return most;
 }
 
-/* Air that is faster than the water makes steps shorter by the ratio of speeds, beyond 5 sqrt(g dp): the water asks for that share of
- * its source, the air for all of its own, whatever `pace` is. Water that is faster is not hurried. */
+/* Air that is faster than the water shortens steps by the ratio of speeds, beyond 5 sqrt(g dp): the
+ * water gets this fraction of its source, the air all of its own, for any `pace`. Faster water is
+ * not accelerated. */
 static void water_keeps_its_pace(void **state)
 {
     (void)state;
@@ -209,9 +216,10 @@ static void water_keeps_its_pace(void **state)
     }
 }
 
-/* ---- relaxation of the volume ---------------------------------------------------------------------------------------------- */
+/* ---- relaxation of the volume ---------------------------------------------------------------- */
 
-/* Source of a particle in a lattice at rest that is off by about `deviation`, which it returns clipped, in the first step. */
+/* Source of a particle in a lattice at rest that is off by about `deviation`, which it returns
+ * clipped, in the first step. */
 static double relaxed(double deviation, double rapid, double start, double dt, double *delta)
 {
     cloud c = cloud_lattice(2, 16, 16, 1, 0, 1);
@@ -235,7 +243,8 @@ static double relaxed(double deviation, double rapid, double start, double dt, d
     return spy.rhs[i];
 }
 
-/* 1/tau below `firm`, then up to 1/tau_g; from `torn` on in dp/U over `rapid` besides, U = U_g in fluid at rest: the same rate in every step. */
+/* 1/tau below `firm`, then up to 1/tau_g; from `torn` on in dp/U over `rapid` besides, U = U_g in
+ * fluid at rest: the same rate in every step. */
 static void torn_volume(void **state)
 {
     (void)state;
@@ -257,7 +266,8 @@ static void torn_volume(void **state)
             }
 }
 
-/* Source, times dt and over the rate of torn gas, in gas at rest beside water that moves at `speed`. */
+/* Source, times dt and over the rate of torn gas, in gas at rest next to water that moves at
+ * `speed`. */
 static double relaxed_beside_water(double speed, double dt)
 {
     cloud gas = cloud_lattice(2, 16, 16, 1, 0, 1), liquid = cloud_lattice(2, 4, 4, 1, 0, 1);
@@ -293,7 +303,8 @@ static double relaxed_beside_water(double speed, double dt)
     return share;
 }
 
-/* Torn gas comes back in the time in which the water crosses a spacing, however short the steps are. */
+/* Torn gas is restored in the time in which the water moves by a spacing, for any length of
+ * steps. */
 static void torn_gas(void **state)
 {
     (void)state;
@@ -302,7 +313,7 @@ static void torn_gas(void **state)
             ASSERT_NEAR(relaxed_beside_water(speed, dt) * CLOUD_DP / speed, 1, 1e-3);
 }
 
-/* ---- floor of torn gas ------------------------------------------------------------------------------------------------------- */
+/* ---- floor of torn gas ----------------------------------------------------------------------- */
 
 static double slope_of_x(const double *x, int dim)
 {
@@ -310,7 +321,8 @@ static double slope_of_x(const double *x, int dim)
     return air * x[0];
 }
 
-/* Acceleration by p = rho x of a gas particle that has every second of its neighbours and a volume too large by `gap`; over -1. */
+/* Acceleration by p = rho x of a gas particle that has every second of its neighbours and a volume
+ * too large by `gap`; over -1. */
 static double pushed(double gap, double torn, bool beside_water)
 {
     cloud c = cloud_lattice(2, 16, 16, 1, 0, 1);
@@ -342,7 +354,8 @@ static double pushed(double gap, double torn, bool beside_water)
     return share;
 }
 
-/* With few neighbours a pressure does no more than its bare sum. Fluid that is not torn, or the only one, has twice that, by the floor of 0.5. */
+/* With few neighbours a pressure does no more than its bare sum. Fluid that is not torn, or the
+ * only one, has twice that, by the floor of 0.5. */
 static void floor_of_torn_gas(void **state)
 {
     (void)state;
@@ -355,7 +368,8 @@ static void floor_of_torn_gas(void **state)
     ASSERT_NEAR(pushed(0.5, 1, false) / twice, 1, 1e-9);
 }
 
-/* An expansion of the second band, the middle of seven rows, is relaxed where the kernel of the volume does not reach the surface. */
+/* An expansion of the second band, the middle of seven rows, is relaxed where the kernel of the
+ * volume does not reach the surface. */
 static void expansion_below_surface(void **state)
 {
     (void)state;

@@ -33,7 +33,7 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
                                    [EQUATION_GAIN] = {"equation_gain", MPS_USE_READ},
                                    [EQUATION_RADIUS] = {"equation_radius", MPS_USE_READ}};
 
-/* The stage and its view, v, delta, share of solids by row, and how rows were found. */
+/* The stage and its view, v, delta, fraction of solids by row, and how rows were found. */
 static const mps_stage *stage;
 static const mps_view *view;
 static const double *rho, *row_rho;
@@ -173,7 +173,7 @@ static bool lighter(int64_t i, int64_t j)
     return view->kind[j] == MPS_FLUID && rho[j] < 0.5 * row_rho[i];
 }
 
-/* Divergence of the half cell of a wall; light fluid is no faster than the dense beside it. */
+/* Divergence of the half cell of a wall; light fluid is not faster than adjacent dense fluid. */
 static double of_wall(int64_t i)
 {
     const double *wetted = stage->data[WETTED];

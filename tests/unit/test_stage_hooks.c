@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each public function of a stage in each hook: a right result, or an error that names the function; never a crash. */
+/* Each public function of a stage in each hook: a correct result, or an error with the name of the
+ * function; never a crash. */
 #include "model_fixture.h"
 #include <mps/reaction.h>
 #include <mps/voids.h>
@@ -9,7 +10,7 @@
 enum { ALL = (1 << MPS_HOOK_COUNT) - 1, AFTER_SEARCH = ALL & ~(1 << MPS_POPULATE) };
 #define FROM(hook) (ALL & ~((1 << (hook)) - 1))
 
-/* What a call gave: compared between hooks. */
+/* Result of a call: compared between hooks. */
 static double given;
 
 static int32_t *mark_fluid(mps_stage *s, int32_t value)
@@ -259,7 +260,7 @@ static mps_sim *pool(void)
     return sim;
 }
 
-/* @return what the call gave; NaN where it failed, as it must */
+/* @return result of the call; NaN if it failed as expected */
 static double play_in(const call *c, int hook)
 {
     const mps_verb verb[] = {{.hook = hook, .run = play}};

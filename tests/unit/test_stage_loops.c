@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops, sums, bodies and scratch that the library runs for verbs. */
+/* Loops, sums, bodies and workspace of the library for verbs. */
 #include "model_fixture.h"
 #include "cloud.h"
 #include <stdio.h>
 
-/* A model with one verb, which does what the test in progress says. */
+/* A model with one verb, which runs the function of the current test. */
 static int (*play)(mps_stage *s);
 
 static int run_play(mps_stage *s)
@@ -63,7 +63,7 @@ static int count_all(mps_stage *s)
     return 0;
 }
 
-/* Each once, also where there are fewer rows than threads. */
+/* Each row once, also with fewer rows than threads. */
 static void each_row_once(void **state)
 {
     (void)state;
@@ -223,7 +223,7 @@ static int raise_many(mps_stage *s)
     return 0;
 }
 
-/* A verb that asks for more than there is room for fails, even if it says that all went well. */
+/* A verb that requests too much workspace fails, even if it returns success. */
 static void wrong_counts(void **state)
 {
     (void)state;
@@ -284,13 +284,13 @@ static void beside(void **state)
 /* Rows of particles far from each other, each `length` long; roles by letter. */
 typedef struct chain {
     const char *roles; /* '.' none, 'm' member, 's' seed, 'a' anchor */
-    const char *free;  /* 'x' where it belongs to a free body */
+    const char *free;  /* 'x' if it is in a free body */
 } chain;
 
 static const chain chains[] = {{"smmm", "xxxx"},         /* free */
                                {"mmsm", "xxxx"},         /* wherever the seed is */
                                {"ssms", "xxxx"},         /* seeds are members */
-                               {"smma", "----"},         /* held by an anchor */
+                               {"smma", "----"},         /* not free, adjacent to an anchor */
                                {"ammms", "-----"},       /* also from the other end */
                                {"smam", "----"},         /* an anchor between */
                                {"mmm", "---"},           /* without a seed */
@@ -298,7 +298,7 @@ static const chain chains[] = {{"smmm", "xxxx"},         /* free */
                                {"smmmm", "xxxxx"},       /* just as large as allowed */
                                {"s", "x"},               /* alone */
                                {"sm...ms", "xx---xx"},   /* apart: two bodies */
-                               {"sm...mma", "xx------"}, /* one of them held */
+                               {"sm...mma", "xx------"}, /* one of them not free */
                                {"....", "----"}};
 enum { CHAINS = sizeof chains / sizeof chains[0], LONGEST = 8, MOST_IN_A_BODY = 5 };
 
@@ -376,7 +376,7 @@ static int check_links(mps_stage *s)
     return 0;
 }
 
-/* A wall between two drops joins no body, whatever its role is, and links none. */
+/* A wall between two droplets is in no body, for any role, and connects none. */
 static void solids_link_no_bodies(void **state)
 {
     (void)state;
@@ -437,7 +437,7 @@ static int take_too_much(mps_stage *s)
     return mps_stage_scratch(s, INT64_MAX / 4) == NULL;
 }
 
-/* The search of bodies gives back what it borrowed. */
+/* The search of bodies releases its workspace. */
 static int bodies_and_blocks(mps_stage *s)
 {
     int32_t *role = mps_stage_scratch_integers(s, s->view->n),

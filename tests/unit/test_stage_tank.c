@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps_view_tank(): at solids it gives the velocity of the solid and a place that never changes. */
+/* mps_view_tank(): at solids it returns the velocity of the solid and a constant position. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 
-/* Of solids by id: first places; positions and velocities before the last step, at time t. How many
- * steps were looked at, and how many times before a step. */
+/* By id of solids: initial positions; positions and velocities before the last step, at time t.
+ * Number of checked steps, and of checks before a step. */
 static struct {
     double place[4000][3], x[4000][3], velocity[4000][3], t;
     int steps, before;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Each status has a name and a text of its own, and the library says which version it is. */
+/* Each status has its own name and text, and the library returns its version. */
 #include "tank_fixture.h"
 #include <stdio.h>
 

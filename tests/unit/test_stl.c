@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* STL files: both forms, scale, what is wrong with a mesh, files cut short and with bytes changed; distances to meshes. */
+/* STL files: both formats, scale, invalid meshes, truncated files and changed bytes; distances to
+ * meshes. */
 #include "stl_fixture.h"
 
 /* ---- meshes ---- */
@@ -102,7 +103,7 @@ static void scale_and_orientation(void **state)
             double volume;
             ASSERT_OK(sim, read_file(sim, container, 1e-3));
             ASSERT_NEAR(area_of(sim, &volume) * 1e6, 4 * 3.14159, 0.02 * 4 * 3.14159);
-            /* about (1, 1, 1) mm: the areas' sum is zero, so the place does not matter */
+            /* about (1, 1, 1) mm: the sum of the areas is zero, so the position does not matter */
             ASSERT_NEAR(volume * 1e9, container ? 4.13 : -4.13, 0.1);
             mps_sim_destroy(sim);
         }
@@ -206,7 +207,7 @@ static uint32_t random_number(uint32_t *seed)
     return *seed >> 8;
 }
 
-/* Whatever is in the file: an answer, and nothing added unless it is MPS_OK. */
+/* Any file: a status, and nothing added unless it is MPS_OK. */
 static void try_file(void)
 {
     mps_sim *sim = new_sim(3, 0.5);
@@ -252,7 +253,7 @@ static void damaged_files(void **state)
     }
 }
 
-/* The side of a place near faces, edges and corners of a box, and its distance. */
+/* The side of a point near faces, edges and corners of a box, and its distance. */
 static void distances(void **state)
 {
     (void)state;
@@ -288,7 +289,8 @@ static void distances(void **state)
     mps__mesh_free(&m);
 }
 
-/* The file's axis z up becomes y: a quarter turn about x. Angles are about x, then y, then z of the tank. */
+/* The axis z of the file becomes y: a rotation by 90 degrees about x. Angles are about x, then y,
+ * then z of the tank. */
 static void rotation(void **state)
 {
     (void)state;
@@ -337,7 +339,8 @@ static void rotation(void **state)
     mps_sim_destroy(sim);
 }
 
-/* No particle of the solid lies in the plane of the open side or beyond; the other walls stay up to there. */
+/* No particle of the solid is in the plane of the open side or beyond; the other walls extend up to
+ * it. */
 static void open_sides(void **state)
 {
     (void)state;

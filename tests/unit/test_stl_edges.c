@@ -2,7 +2,8 @@
 /* Sharp edges of STL files. */
 #include "stl_fixture.h"
 
-/* Each edge of a box once, between its corners as placed, whatever the file's diagonals; on a sphere none that is flatter than its faces. */
+/* Each edge of a box once, between its transformed corners, for any diagonals in the file; on a
+ * sphere none with a smaller angle than its faces. */
 static void sharp_edges(void **state)
 {
     const triangles box = box_mesh(), fine = sphere_mesh(24);

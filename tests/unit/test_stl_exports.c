@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* STL files as programs write them: text in many forms, bytes behind the end, gaps, several surfaces. */
+/* STL files in the formats of programs: text in many forms, bytes after the end, gaps, several
+ * surfaces. */
 #include "stl_fixture.h"
 
 static char warned[4000];
@@ -53,7 +54,7 @@ static size_t text_of(const triangles *t, const char *end, const char *begin, co
     return used + (size_t)snprintf(text + used, size - used, "%s", last);
 }
 
-/* Whatever stands before the first word and ends the lines, it is the same box. */
+/* The same box for any text before the first word and any line ends. */
 static void texts(void **state)
 {
     static const struct {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Structs that cross the interface: sizes that no version had are refused, and nothing is written beyond the caller's size. */
+/* Structs that cross the interface: sizes that no version had are refused, and nothing is written
+ * beyond the caller's size. */
 #include "tank_fixture.h"
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -72,7 +73,8 @@ static void init_knows_sizes(void **state)
     }
 }
 
-/* A struct that a program made too short is refused by all that would fill it; nothing is written. */
+/* A struct that a program made too short is refused by all that would fill it; nothing is
+ * written. */
 static void fillers_refuse_sizes(void **state)
 {
     (void)state;
@@ -114,7 +116,8 @@ static void fillers_refuse_sizes(void **state)
     mps_sim_destroy(sim);
 }
 
-/* An invalid size is refused before a byte behind the struct is read. The struct ends at the end of a page; the next page is not mapped. */
+/* An invalid size is refused before a byte behind the struct is read. The struct ends at the end of
+ * a page; the next page is not mapped. */
 static void sizes_without_end(void **state)
 {
     (void)state;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* surface.asymmetry: what is surface, and what is left among spray; the volume error of liquid a few
- * rows deep. */
+/* surface.asymmetry: surface particles, remaining particles in spray; the volume error of liquid of
+ * few rows. */
 #include "tank_fixture.h"
 #include <mps/model.h>
 
@@ -75,8 +75,9 @@ static void film_on_the_floor(void **state)
     assert_true(region[classified(21, x)] < MPS_REGION_SURFACE);
 }
 
-/* Region of the particle below the tip of liquid that climbs a wall: four rows, in the column at the
- * wall the top one lifted, in the next the upper two lower. contact < 0: as the model begins. */
+/* Region of the particle below the tip of liquid that climbs a wall: four rows, in the column at
+ * the wall the top one lifted, in the next the upper two lower. contact < 0: as the model
+ * begins. */
 static int32_t below_the_tip(double contact)
 {
     double at[72];
@@ -102,7 +103,7 @@ static int32_t below_the_tip(double contact)
     return region[ids[2]];
 }
 
-/* Beside a wall that goes on above the surface n is too large and the asymmetry too small. */
+/* Next to a wall that extends above the surface n is too large and the asymmetry too small. */
 static void surface_meets_a_wall(void **state)
 {
     (void)state;

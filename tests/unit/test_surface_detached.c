@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* surface.detached: who is spray where several phases fill the space. */
+/* surface.detached: spray if several phases fill the space. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
 static const double water = 1000;
 
-/* Regions of the cloud after a step; phase 0 has the density of water, phase 1 that over `ratio`. spray < 0: the default. */
+/* Regions of the particles after a step; phase 0 has the density of water, phase 1 this density
+ * over `ratio`. spray < 0: the default. */
 static void classify(const cloud *c, const int32_t *phase, double ratio, double spray)
 {
     mps_sim *sim = bare_sim(c->dim, CLOUD_DP, 3.1, 1e-6);
@@ -41,7 +42,8 @@ static cloud air_block(int dim, double jitter, int32_t **phase)
     return c;
 }
 
-/* A drop of one particle is spray at 1000 : 1, and no particle is at 1.8 : 1 or where both weigh the same. */
+/* A drop of one particle is spray at 1000 : 1, and no particle is at 1.8 : 1 or where both weigh
+ * the same. */
 static void lone_drop(void **state)
 {
     (void)state;
@@ -60,7 +62,8 @@ static void lone_drop(void **state)
         }
 }
 
-/* A triangle of three in 2-D, a cube of eight in 3-D, a layer one particle thick: all of them are in the pressure equation. */
+/* A triangle of three in 2-D, a cube of eight in 3-D, a layer one particle thick: all of them are
+ * in the pressure equation. */
 static void together(void **state)
 {
     (void)state;
@@ -88,13 +91,14 @@ static void together(void **state)
         }
 }
 
-/* A particle apart from all others is spray if it is water and there is air somewhere. Air never is, nor water where there is no air. */
+/* An isolated particle is spray if it is water and air exists. Air never is, nor water without
+ * air. */
 static void in_a_void(void **state)
 {
     (void)state;
     for (int dim = 2; dim <= 3; dim++)
         for (int kind = 0; kind < 3;
-             kind++) { /* water beside air, air beside water, water beside water */
+             kind++) { /* water next to air, air next to water, water next to water */
             int32_t *phase;
             cloud c = air_block(dim, 0.1, &phase);
             for (int64_t i = 0; i < c.n; i++) phase[i] = kind == 0;
@@ -123,7 +127,8 @@ static double company(const cloud *c, const int32_t *phase, double ratio, int64_
     return sum / n0;
 }
 
-/* Scattered water: spray is what has less fluid about it than the setting, for any setting and ratio. */
+/* Scattered water: spray is what has less fluid about it than the setting, for any setting and
+ * ratio. */
 static void to_the_letter(void **state)
 {
     (void)state;

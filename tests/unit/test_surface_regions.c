@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* surface.asymmetry and wall.half against loops over all particles: regions of a torn liquid
- * between walls, and the share of walls that is wet. */
+ * between walls, and the wetted fraction of walls. */
 #include "phase_fixture.h"
 #include <stdbool.h>
 
@@ -67,7 +67,7 @@ static sums sums_of(int64_t i, const int32_t *region, int32_t left)
     return c;
 }
 
-/* The rule of the head of src/bc/surface_asymmetry.c that holds first; REST: none does. */
+/* The first matching rule of the header of src/bc/surface_asymmetry.c; REST: none. */
 static int rule(double n, double a)
 {
     return n < 0.6               ? LONE
@@ -100,7 +100,7 @@ static void own_sums(const sums *c, int32_t *region)
     }
 }
 
-/* Particles beside spray, then those where the surface meets a wall. */
+/* Particles next to spray, then particles where the surface meets a wall. */
 static void beside_others(const sums *c, double a0, int32_t *region)
 {
     static int32_t old[ROOM];
@@ -136,7 +136,7 @@ static void bands(int32_t *region)
                 region[i] = to;
 }
 
-/* Share of a wall's half space that is full, 0 if all fluid is behind its face. */
+/* Filled fraction of the half space of a wall, 0 if all fluid is behind its face. */
 static double wet(int64_t i, const int32_t *region, double full)
 {
     const int dim = v->dim;
@@ -195,8 +195,8 @@ static const mps_model_ops regions = {.struct_size = sizeof(mps_model_ops),
                                       .verb_count = 1,
                                       .verbs = verbs};
 
-/* Liquid in a tank with a box on the floor, off its lattice by up to `jitter`; of its particles the
- * share `torn` is missing, more of it at the top. */
+/* Liquid in a tank with a box on the floor, off its lattice by up to `jitter`; the fraction `torn`
+ * of its particles is missing, more at the top. */
 static void classify(int dim, double jitter, double torn, uint64_t seed)
 {
     const double dp = CLOUD_DP, length = (dim == 2 ? 24 : 10) * dp, top = (dim == 2 ? 14 : 8) * dp,
@@ -238,8 +238,8 @@ static void by_all_particles(void **state)
     for (int k = 0; k < ALL; k++) assert_true(found[k] > 0);
 }
 
-/* Liquid beside a box, its upper row `lift` dp above the box; how many walls see all of it behind
- * their face. */
+/* Liquid next to a box, its upper row `lift` dp above the box; number of walls with all liquid
+ * behind their face. */
 static int64_t beside_a_box(double lift)
 {
     const double dp = CLOUD_DP, lo[3] = {8 * dp, 0, 0}, hi[3] = {12 * dp, 4 * dp, 0};

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A tank of any size has that size: whole cells fill it and the spacing follows them. Blocks of liquid have their volume. */
+/* A tank of any size has that size: whole cells fill it and the spacing follows them. Blocks of
+ * liquid have their volume. */
 #include "sim.h"
 #include "tank_fixture.h"
 #include <mps/operators.h>
@@ -106,7 +107,8 @@ static void whole_sizes(void **state)
     }
 }
 
-/* Radii are multiples of the spacing that is built, and a lattice at rest has the volume and the number density of a square one. */
+/* Radii are multiples of the spacing that is built, and a lattice at rest has the volume and the
+ * number density of a square one. */
 static void lattice_at_rest(void **state)
 {
     static const double size[2][3] = {{3.22, 1}, {1.12, 0.78, 0.55}};
@@ -141,7 +143,8 @@ static void lattice_at_rest(void **state)
             delta = fmax(delta, fabs(of[i]));
             n = fmax(n, fabs(at[i] / near.n0 - 1));
         }
-        /* the cells are stretched by .9 and by 2.9 %: without a spacing that follows them they would have 2 and 4 % more volume */
+        /* the cells are stretched by .9 and by 2.9 %: without a spacing that follows them they
+         * would have 2 and 4 % more volume */
         assert_true(delta > 1e-9 && delta < (dim == 2 ? 2e-5 : 1e-3));
         assert_true(n > 1e-9 && n < (dim == 2 ? 1e-4 : 1e-3));
         free(of);
@@ -150,10 +153,11 @@ static void lattice_at_rest(void **state)
     }
 }
 
-/* Only before the first particle the spacing is free. A tank like the first has its lattice, another one is rounded. */
+/* Only before the first particle the spacing is free. A tank like the first has its lattice,
+ * another one is rounded. */
 static void later_tanks(void **state)
 {
-    /* 20.45 and 30.55 dp asked for: 30.43 of the dp of whole cells */
+    /* requested: 20.45 and 30.55 dp: 30.43 of the dp of whole cells */
     const double first[3] = {0.6135, 0.9165, 0}, other[3] = {0.485, 0.285, 0};
     const mps_tank tanks[] = {tank_at(0, first), tank_at(2, first), tank_at(4, other)};
     double built[3], h[2], dp, now;
@@ -193,7 +197,7 @@ static void after_liquid(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A tank that is refused leaves the spacing as it was. */
+/* A refused tank leaves the spacing unchanged. */
 static void refused(void **state)
 {
     const double size[3] = {0.515, 0.315, 0};
@@ -210,7 +214,8 @@ static void refused(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Particles that a side of a block needs, in cells: between walls, from a wall to a surface, between two surfaces. */
+/* Particles that a side of a block needs, in cells: between walls, from a wall to a surface,
+ * between two surfaces. */
 static double layers(double from, double to, double size, double h)
 {
     const int walls = (from <= 0) + (to >= size);
@@ -264,7 +269,8 @@ static void stops_at_plates(void **state)
     }
 }
 
-/* Plates on the lattice of a tank stand on its walls, at whatever edges its cells have; each face has the area of the plate. */
+/* Plates on the lattice of a tank are attached to its walls, for any edges of its cells; each face
+ * has the area of the plate. */
 static void plates_on_the_lattice(void **state)
 {
     (void)state;

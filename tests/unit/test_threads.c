@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Solvers and preconditioners give the same bytes with one thread and with three; handles in threads of the host's do not
- * know of each other. For ThreadSanitizer too: these are the loops of the solvers. */
+/* Solvers and preconditioners give the same bytes with one thread and with three; handles in
+ * threads of the application are independent. For ThreadSanitizer too: these are the loops of the
+ * solvers. */
 #include "tank_fixture.h"
 #include <pthread.h>
 

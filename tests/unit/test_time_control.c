@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Time control: what is refused, what limits a step, and steps with bad arguments. */
+/* Time control: refusals, limits of a step, and steps with invalid arguments. */
 #include "push_fixture.h"
 
 /* ---- time control ---------------------------------------------------------------------------- */
@@ -63,7 +63,7 @@ static double step_taken(mps_sim *sim, double dt_max)
     return step_taken_by(sim, dt_max, NULL);
 }
 
-/* Each limit in turn is the smallest and gives the step. */
+/* Each limit in turn is the smallest and determines the step. */
 static void limits(void **state)
 {
     (void)state;
@@ -104,7 +104,7 @@ static void limits(void **state)
     mps_sim_destroy(sim);
 }
 
-/* Walls jump to their speed in the first step: it is as short as the speed asks for, and nothing is
+/* Walls jump to their speed in the first step: it is limited by this speed, and no particle is
  * lost. */
 static void fast_walls(void **state)
 {
@@ -112,7 +112,7 @@ static void fast_walls(void **state)
     for (int k = 0; k < 3; k++) {
         const bool turn = k == 2,
                    against = k ==
-                             1; /* against: the liquid comes towards the walls, the speeds add up */
+                             1; /* against: the liquid moves towards the walls, the speeds add up */
         const mps_harmonic shock = {.dof = turn ? MPS_ROTATE_Z : MPS_MOVE_X,
                                     .amplitude = turn ? 1 : 1000,
                                     .omega = turn ? 200 : 0.2};
@@ -135,8 +135,8 @@ static void fast_walls(void **state)
     }
 }
 
-/* A very short step that the caller asked for, by an argument or by the control, does not make the next step
- * fail. */
+/* A very short step requested by the caller, by an argument or by the control, does not make the
+ * next step fail. */
 static void slivers(void **state)
 {
     (void)state;
@@ -183,7 +183,8 @@ static void bad_steps(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A step info of a size that no version had is not written, and no step is done; a newer program's is filled up to what is known. */
+/* A step info of a size that no version had is not written, and no step is done; a newer program's
+ * is filled up to what is known. */
 static void other_step_info(void **state)
 {
     (void)state;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Steps miss nothing of the tank's motion, and are not shorter than that needs. */
+/* Steps resolve the motion of the tank, and are not shorter than necessary. */
 #include "tank_fixture.h"
 #include <string.h>
 
@@ -82,7 +82,7 @@ static void fast_motions(void **state)
     const double most = longest_step(sim, 40);
     assert_true(most > period / 40 && most < period / 10);
     mps_sim_destroy(sim);
-    sim = pool(); /* rows that alternate: none is left out but where three are in line, at 0 */
+    sim = pool(); /* alternating rows: none is skipped except where three are in line, at 0 */
     shake_by_table(sim, amplitude, omega, period / 2.5);
     assert_true(longest_step(sim, 20) < 2.01 * period / 2.5);
     mps_sim_destroy(sim);
@@ -106,7 +106,7 @@ static void slow_motions(void **state)
     mps_sim_destroy(sim);
 }
 
-/* After a rest a short jolt is met at its first row, and none but rows in line are left out. */
+/* After a rest a short jolt is resolved from its first row, and only rows in line are skipped. */
 static void jolt(void **state)
 {
     (void)state;
@@ -128,7 +128,7 @@ static void jolt(void **state)
     mps_sim_destroy(sim);
 }
 
-/* A fixed step is the user's choice, and told once for each motion. */
+/* A fixed step is the choice of the user, and logged once for each motion. */
 static void fixed_step(void **state)
 {
     (void)state;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Water below air in a closed tank with the scheme of several phases: the densities that walls take, and that what is at rest stays so. */
+/* Water below air in a closed tank with the scheme of several phases: the densities of walls;
+ * fluids at rest remain at rest. */
 #include "phase_fixture.h"
 
 static const double dp = 0.05, water = 1000, air = 1, size[3] = {0.4, 0.5, 0.3}, middle = 0.225;
@@ -15,9 +16,9 @@ static void fill(mps_sim *sim)
     ASSERT_OK(sim, mps_fill_box_add(sim, 1, air_floor, size, NULL, NULL));
 }
 
-/* ---- walls ----------------------------------------------------------------------------------------------------------------- */
+/* ---- walls ----------------------------------------------------------------------------------- */
 
-/* Every fluid particle away from its place by up to `jitter` dp. */
+/* Every fluid particle displaced by up to `jitter` dp. */
 static void jitter_fluid(mps_sim *sim, int dim, double jitter)
 {
     const int32_t *kinds;
@@ -30,8 +31,9 @@ static void jitter_fluid(mps_sim *sim, int dim, double jitter)
     ASSERT_OK(sim, mps_lease_end(sim, &x));
 }
 
-/* Density of the fluid beside: that of the nearest, or with `nearly` the mean of all whose W/r^2 is more than that share
- * of the nearest one's, by the square of the excess; else the wall's own. */
+/* Density of the adjacent fluid: that of the nearest, or with `nearly` the mean of all whose W/r^2
+ * is more than this fraction of that of the nearest, weighted by the square of the excess;
+ * otherwise that of the wall. */
 static double density_beside(const double *x, const double *rho, const int32_t *kind, int64_t n,
                              int dim, int64_t i, double nearly)
 {
@@ -67,8 +69,8 @@ static int32_t *kinds_by_id(mps_sim *sim)
     return kind;
 }
 
-/* A wall particle has the density of the fluid nearest to it, and passes to another's as that comes nearer; with the walls of the papers it
- * is the nearest's alone, that of a dummy too. */
+/* A wall particle has the density of the nearest fluid, with a continuous transition to another as
+ * it approaches; with the walls of the papers it is that of the nearest only, also for a dummy. */
 static void walls_take_density(void **state)
 {
     (void)state;
@@ -103,7 +105,8 @@ static void walls_take_density(void **state)
     assert_true(between[0] > 0 && between[1] == 0);
 }
 
-/* A lone drop of water before the wall of the air: the wall is that of the drop, unless the drop is spray. */
+/* A lone drop of water before the wall of the air: the wall is that of the drop, unless the drop is
+ * spray. */
 static void spray_before_wall(void **state)
 {
     (void)state;
@@ -140,8 +143,8 @@ static void spray_before_wall(void **state)
     }
 }
 
-/* Share of a wall particle's cell that holds air: the part of the cell that it stands for, times that
- * of the air in the fluid beside it. */
+/* Fraction of air in the cell of a wall particle: the part of the cell that it represents, times
+ * the fraction of air in the adjacent fluid. */
 static double air_share(const double *x, const int32_t *kind, int64_t n, int dim, int64_t i)
 {
     const double re = 2.1 * dp;
@@ -192,7 +195,8 @@ static void walls_hold_gas(void **state)
     }
 }
 
-/* Sources of the walls, by id, with the air at `speed` away from the left wall and the water at rest; free() them. */
+/* Sources of the walls, by id, with the air at `speed` away from the left wall and the water at
+ * rest; free() them. */
 static double *wall_sources(double speed, int64_t *n)
 {
     const int32_t *kinds, *phases;
@@ -216,8 +220,8 @@ static double *wall_sources(double speed, int64_t *n)
     return rhs;
 }
 
-/* Beyond the speed of calm water the air beside a wall of the water changes nothing there,
- * however fast; walls of the air take all of it. */
+/* Beyond the speed of calm water, air next to a wall of the water has no effect there at any speed;
+ * walls of the air use all of it. */
 static void water_walls_mind_water(void **state)
 {
     (void)state;
@@ -242,9 +246,10 @@ static void water_walls_mind_water(void **state)
     free(kind);
 }
 
-/* ---- rest -------------------------------------------------------------------------------------------------------------------- */
+/* ---- rest ------------------------------------------------------------------------------------ */
 
-/* Largest difference between the pressures of the fluid, each less that of layers at rest, over that of the depth of the water. */
+/* Largest difference between the pressures of the fluid, each less that of layers at rest, over
+ * that of the depth of the water. */
 static double head_error(mps_sim *sim, int dim)
 {
     const int32_t *kinds;
@@ -284,7 +289,8 @@ static void at_rest(void **state)
                           info.max_speed, head_error(sim, dim));
             assert_true(
                 info.max_speed <
-                0.005); /* sqrt(g dp) is 0.7; pairs with the mean of two densities: 0.01; walls with their own: above 0.1 */
+                0.005); /* sqrt(g dp) is 0.7; pairs with the mean of two densities: 0.01; walls with
+                           their own: above 0.1 */
             assert_true(head_error(sim, dim) < 2e-3);
             for (int f = 0; f < 3; f++) {
                 double *now = field_by_id(sim, fields[f]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Nothing depends on a uniform motion: a tank at 100 m/s that also swings takes the steps of one that only swings, and has its pressures,
- * averages and records. Liquid that turns with its tank does not shorten steps either. */
+/* Nothing depends on a uniform motion: a tank at 100 m/s that also oscillates has the steps,
+ * pressures, averages and records of one that only oscillates. Liquid that rotates with its tank
+ * does not shorten steps either. */
 #include "tank_fixture.h"
 
 enum { PROBES = 4 };
@@ -26,7 +27,8 @@ static int move(void *user, double t, mps_motion_state *s)
     return 0;
 }
 
-/* Solutions to rounding: a residual beside the default tolerance decides how many iterations there are. */
+/* Solutions to rounding: with a residual near the default tolerance the number of iterations may
+ * differ. */
 static void solve_well(mps_sim *sim)
 {
     mps_solver_limits l;
@@ -133,7 +135,8 @@ static void at_a_speed(void **state)
     compare("mmps", 3, 0.02, 20);
 }
 
-/* A drum without gravity that turns with its liquid: at rest in it, nothing limits the steps but the bend of the walls' way. */
+/* A drum without gravity that rotates with its liquid: only the curvature of the paths of the walls
+ * limits the steps. */
 static void in_a_drum(void **state)
 {
     const double middle[3] = {0.25, 0.25, 0.1};

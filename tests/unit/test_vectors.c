@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-/* 1 + 2 10 + 3 100 + ..: each number that is left out, or of another vector, shows. */
+/* 1 + 2 10 + 3 100 + ..: a missing number, or one of another vector, changes the sum. */
 static void dot(void **state)
 {
     static const double a[6] = {1, 2, 3, 4, 5, 6}, b[7] = {1, 10, 100, 1e3, 1e4, 1e5, -1e9},

@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Voids of the tank: drawn shapes are found, with their extent, and parted where they are. */
+/* Voids of the tank: random shapes are found, with their extent, and separated correctly. */
 #include "void_fixture.h"
 
-/* A cell counts by its centre: the extent is known within a share of the outline's length. */
+/* A cell counts by its centre: the error of the extent is a fraction of the length of the
+ * outline. */
 static void expect_extent(const found_voids *f, int32_t label, double extent, double outline)
 {
     const double seen = extent_of(f, label);
@@ -144,7 +145,7 @@ static int right_of_plate(const double *X)
     return !left_of_plate(X);
 }
 
-/* A thin plate from floor to roof that leans divides the ullage and a void that lies across. */
+/* An inclined thin plate from floor to roof divides the ullage and a void that crosses it. */
 static int across_plate(const double *X)
 {
     return fabs(X[0] - 0.62) < 0.12 && fabs(X[1] - 0.2) < 0.1;
@@ -177,7 +178,7 @@ static int in_baffle(const double *X)
     return fabs(X[0] - 0.5) < 0.09 && X[1] < 0.6;
 }
 
-/* A block to above the liquid stands in a void: two voids beside it, and no cell of them in it. */
+/* A surface-piercing block in a void: two voids next to it, and none of their cells in it. */
 static int round_block(const double *X)
 {
     return fabs(X[0] - 0.5) < 0.206 && fabs(X[1] - 0.2) < 0.086;
@@ -248,7 +249,7 @@ static int tilted(void *user, double t, mps_motion_state *state)
     return 0;
 }
 
-/* The raster stands in the frame of the tank: of a tank that is upside down it is the same. */
+/* The grid is fixed in the frame of the tank: it is the same in an inverted tank. */
 static void test_tilted(void **state)
 {
     found_voids upright, f;
@@ -281,7 +282,8 @@ static int in_sphere_or_corner(const double *X)
     return in_sphere(X) || at_corner(X);
 }
 
-/* Void reaches to `nearest` from the outline at least; wet walls within 1.5 dp of it are liquid too. */
+/* Void reaches to `nearest` from the outline at least; wet walls within 1.5 dp of it are liquid
+ * too. */
 static void expect_shells(const found_voids *f, int32_t label, double factor, double r,
                           double nearest)
 {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Voids of the tank: the same bytes with any number of threads, limits, refusals, places. */
+/* Voids of the tank: the same bytes with any number of threads, limits, refusals, positions. */
 #include "void_fixture.h"
 #include <stdbool.h>
 
@@ -114,7 +114,7 @@ static void test_refusals(void **state)
     forget_voids(&f);
 }
 
-/* Places in the raster. */
+/* Positions in the grid. */
 static void test_places(void **state)
 {
     found_voids f;

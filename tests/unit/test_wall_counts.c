@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wall particles of random solids: one for every dp^(dim-1) of surface, whatever the sides are in spacings. */
+/* Wall particles of random solids: one for every dp^(dim-1) of surface, for any sides in
+ * spacings. */
 #include "stl_fixture.h"
 
 enum { CORNERS = 8 };
@@ -13,7 +14,7 @@ static double between(double from, double to)
     return from + (to - from) * (seed >> 8) / 16777216.0;
 }
 
-/* A convex prism: corners counterclockwise, 0 <= z <= width; turned about the origin. */
+/* A convex prism: corners counterclockwise, 0 <= z <= width; rotated about the origin. */
 typedef struct prism {
     int dim, corners;
     double p[CORNERS][2], width, turn[3];
@@ -63,7 +64,7 @@ static double in_prism(void *user, const double *place)
     return s->body ? -least : least;
 }
 
-/* Kinds: box, chamfered box, and both of them turned. */
+/* Kinds: box, chamfered box, and both of them rotated. */
 static prism random_prism(int dim, int kind, double most)
 {
     prism s = {.dim = dim, .width = between(6, most)};
@@ -169,7 +170,8 @@ static void in_space(void **state)
     }
 }
 
-/* Sides that are no multiples of dp, at rest: with the walls twice the pressure was 13 % too high. */
+/* Sides that are no multiples of dp, at rest: with the walls twice the pressure was 13 % too
+ * high. */
 static void at_rest(void **state)
 {
     prism s = {.dim = 3, .corners = 4, .p = {{0, 0}, {8.3, 0}, {8.3, 6.2}, {0, 6.2}}, .width = 6.4};
@@ -201,7 +203,7 @@ static void at_rest(void **state)
         mean[0] += pressure / 20;
         mean[1] -= values[1] / 20;
     }
-    /* of four rows 0.016 is the level to 0.07 dp; with walls twice it was 0.13 and more */
+    /* for four rows 0.016 is the level within 0.07 dp; with duplicate walls it is 0.13 and more */
     ASSERT_NEAR(mean[0] / (9810 * hi[1]), 1, 0.02);
     ASSERT_NEAR(mean[1] / weight, 1, 0.02);
     mps_sim_destroy(sim);

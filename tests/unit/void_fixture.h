@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A model that asks for the voids of the tank in each step and keeps what it gets, and tanks with
- * drawn voids. */
+/* A model that requests the voids of the tank in each step and stores them, and tanks with random
+ * voids. */
 #ifndef VOID_FIXTURE_H
 #define VOID_FIXTURE_H
 
@@ -99,7 +99,7 @@ static inline void fill_drawn(mps_sim *sim, int32_t dim, double depth,
     ASSERT_OK(sim, mps_fill_add(sim, 0, is_drawn, &d, NULL));
 }
 
-/* Cells of a component that lie where `inside` is true, of all its cells. */
+/* Fraction of the cells of a component where `inside` is true. */
 static inline double share_within(const found_voids *f, int32_t label,
                                   int (*inside)(const double *))
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Two frames for tests/vtk/read_frames.py, of one rank and in pieces of three; prints the number of points of each kind. usage: write_frames
- * FOLDER */
+/* Two frames for tests/vtk/read_frames.py, of one rank and in pieces of three; prints the number of
+ * points of each kind. usage: write_frames FOLDER */
 #include "kit_engine.h"
 #include <mps/mps.h>
 #include <stdio.h>

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The eddy viscosity through the kit of models. */
+/* Test the eddy viscosity with the kit of models. */
 #include "eddy.h"
 #include <model_kit.h>
 

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Eddy viscosity of a large-eddy simulation, Smagorinsky (1963):
- *   nu_t = (C_s dp)^2 |S|,  |S| = sqrt(2 S:S),  S = (grad u + grad u^T)/2,  mu = mu_phase + rho nu_t
+ *   nu_t = (C_s dp)^2 |S|,  |S| = sqrt(2 S:S),  S = (grad u + grad u^T)/2,
+ *   mu = mu_phase + rho nu_t,
  *   grad u_i = M_i^-1 sum w (u_j - u_i) (x) r_ij,  M_i = sum w r_ij (x) r_ij,  w = W/r^2
- * over near fluid neighbours. The gradient is exact for linear fields wherever M is regular; a row
- * with too few neighbours, or all in a line, keeps the viscosity of the phase. Walls are left out:
- * they would count a slip as shear; there is no wall law.
- * cs = 0 gives the viscosity of the phase. */
+ * over near fluid neighbours. The gradient is exact for linear fields if M is regular; a row with
+ * too few or collinear neighbours keeps the viscosity of the phase. Walls are omitted, because slip
+ * would count as shear; there is no wall law. cs = 0 gives the viscosity of the phase. */
 #include "eddy.h"
 #include <mps/plugin.h>
 #include <stdbool.h>
@@ -36,7 +36,7 @@ typedef struct fields {
     double *strain, *viscosity;
 } fields;
 
-/* mu of a row with the strain rate `strain`. */
+/* mu of a row with strain rate `strain`. */
 static double viscosity_of(const mps_view *v, double density, double strain, int64_t i)
 {
     const double length = v->setting[CS] * v->dp;
@@ -58,8 +58,8 @@ MPS_ROW void raise(const int dim, const mps_view *v, const fields *f, int64_t i,
 }
 MPS_SUMS(raise_rows, raise, fields)
 
-/* Explicit diffusion has no new extremes below dt = lambda/(2 D nu); half of it is allowed, with the
- * strain rates of the last step. */
+/* Explicit diffusion has no new extremes below dt = lambda/(2 D nu); half of it is allowed, with
+ * the strain rates of the last step. */
 static int limit_step(mps_stage *s)
 {
     const mps_view *v = s->view;
@@ -85,7 +85,7 @@ static const double REGULAR = 1e-3;
 MPS_ROW bool invert(const int dim, double m[3][3], double inverse[3][3])
 {
     double det = 0, trace = 0;
-    if (dim == 2) m[2][2] = 0.5 * (m[0][0] + m[1][1]); /* a direction of its own */
+    if (dim == 2) m[2][2] = 0.5 * (m[0][0] + m[1][1]); /* a separate direction */
     for (int d = 0; d < 3; d++) {
         const int e = (d + 1) % 3, g = (d + 2) % 3;
         for (int c = 0; c < 3; c++) {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The eddy viscosity in exact fields: a free block of water in shear, |S| = rate, and in rotation,
- * |S| = 0, in 2-D and 3-D; the viscosity that follows, by the energy that friction takes; a dam
- * break with C_s = 0, which has the bytes of one without the model, and with C_s = 0.15.
+ * |S| = 0, in 2-D and 3-D; the resulting viscosity, by the energy dissipated by friction; a dam
+ * break with C_s = 0, bitwise equal to one without the model, and with C_s = 0.15.
  *
  * usage: shear */
 #include "eddy.h"
@@ -61,7 +61,8 @@ static int add_block(mps_sim *sim, int32_t dim, double a, double b)
     return status < 0 ? failed(sim, "block") : 0;
 }
 
-/* Largest |strain - exact|, after one short step; and what friction took in it [J]. */
+/* Largest |strain - exact| after one short step, and the energy dissipated by friction in it
+ * [J]. */
 static int strain(int32_t dim, double a, double b, double exact, double cs, double *off,
                   double *energy)
 {
@@ -97,7 +98,7 @@ static int fields_of(int32_t dim)
     return !(shear < 1e-10 * RATE && turn < 1e-10 * RATE && fabs(thick / thin / wanted - 1) < 1e-4);
 }
 
-/* A column of water that falls. */
+/* A collapsing column of water. */
 static mps_sim *dam(void)
 {
     const double lo[2] = {0, 0}, hi[2] = {0.2, 0.2};
@@ -112,7 +113,7 @@ static mps_sim *dam(void)
     return sim;
 }
 
-/* Positions at t = 0.3 s; cs < 0: without the model. @return their sum of bytes, 0 after a failure */
+/* Positions at t = 0.3 s; cs < 0: without the model. @return checksum, 0 after a failure */
 static uint64_t positions(double cs, double *energy)
 {
     mps_lease x = {.struct_size = sizeof x};

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The jet through the kit of models; and the same bytes on one to three ranks, over a checkpoint
- * and, on one rank, after steps that failed: many ranks end with the first one. */
+/* Test the jet with the kit of models. Then compare bytes on one to three ranks, over a checkpoint
+ * and, on one rank, after failed steps: on many ranks the first failed step ends the run. */
 #include "inflow.h"
 #include <kit_engine.h>
 #include <model_kit.h>
@@ -26,7 +26,7 @@ static const mps_verb fail_verbs[] = {{.hook = MPS_SHIFT, .run = fail_on_demand}
 
 typedef struct state {
     int64_t n;
-    double value[MOST][NUMBERS]; /* by rows of all ranks, which are in the order of one rank */
+    double value[MOST][NUMBERS]; /* by rows of all ranks, in the order of one rank */
     mps_energy energy;
 } state;
 
@@ -34,7 +34,7 @@ typedef struct run {
     kit_engine_team *team; /* NULL: one rank */
     int checkpoint, failing;
     int bad[RANKS];
-    state *end; /* as rank 0 sees it */
+    state *end; /* on rank 0 */
 } run;
 
 static int say(mps_sim *sim, const char *what)
@@ -134,7 +134,7 @@ static void run_rank(void *argument, int32_t rank)
     r->bad[rank] = bad;
 }
 
-/* Run on some ranks and compare. @return 0: the bytes are those of `alone` */
+/* Run on several ranks and compare. @return 0: the bytes are those of `alone` */
 static int compare(const state *alone, int32_t ranks, int checkpoint, int failing, state *end)
 {
     run r = {.checkpoint = checkpoint, .failing = failing, .end = end};

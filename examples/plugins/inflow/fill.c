@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A jet from above fills an open tank in 20 s; then a tank with a jet flows over into an outlet.
- * Prints the volume by the number of particles and by gauges, over rate times time.
+/* A jet from above fills an open tank in 20 s; then a tank with a jet overflows into an outlet.
+ * Prints the volume from the number of particles and from gauges, divided by rate times time.
  *
  * usage: fill [dp]     dp: spacing [m], default 0.02; the width of the jet is a multiple of it */
 #include "inflow.h"
@@ -27,7 +27,7 @@ static void tell(void *user, int level, const char *text)
     fprintf(stderr, "%s\n", text);
 }
 
-/* An open tank with a jet over it. */
+/* An open tank with a jet above it. */
 static mps_sim *build(double dp, double length, double stop)
 {
     mps_sim *sim = NULL;
@@ -66,7 +66,7 @@ static int add_gauges(mps_sim *sim, double length, int32_t *gauge)
     return 0;
 }
 
-/* Sums of what gauges show. */
+/* Sums of gauge values. */
 typedef struct levels {
     int32_t gauge[GAUGES];
     double sum, time;
@@ -84,7 +84,7 @@ static int note_level(void *user, mps_sim *sim, const mps_step_info *info)
     return 0;
 }
 
-/* Share of `value` by which it differs from `exact`; prints it. @return whether it is too large */
+/* Relative difference of `value` from `exact`; prints it. @return whether it is too large */
 static int differs(const char *what, double value, double exact, double most)
 {
     const double off = value / exact - 1;
@@ -118,7 +118,7 @@ static int fill(double dp)
     return bad;
 }
 
-/* Particles in the outlet, which leave next, and their energy. */
+/* Particles in the outlet, which the next step removes, and their energy. */
 static int leaving(mps_sim *sim, double dp, double level, int64_t *count, double *energy)
 {
     mps_lease x = {.struct_size = sizeof x}, u = {.struct_size = sizeof u},
@@ -140,7 +140,7 @@ static int leaving(mps_sim *sim, double dp, double level, int64_t *count, double
     return 0;
 }
 
-/* A tank that is full up to the outlet stays so, and what comes goes. */
+/* A tank that is full up to the outlet remains full, and outflow equals inflow. */
 static int overflow(double dp)
 {
     const double level = 0.4, lo[2] = {0, 0}, hi[2] = {1, level}, until = 8;

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Inflow and outlet. A jet comes out of an opening in the lab: a line across the jet in 2-D, a
- * square in 3-D. A row of particles dp apart leaves it each time the row before has moved by dp:
+/* Inflow and outlet. A jet flows from an opening in the lab: a line across the jet in 2-D, a square
+ * in 3-D. A row of particles with spacing dp leaves it each time the previous row has moved by dp:
  *   t_k = start + k dp/U,  k = 0, 1, ... while t_k < stop;  rate = U (n dp)^(D-1),
- * n the whole number next to width/dp, U the speed. A row that was due within the last step begins
- * where a free fall has brought it. The opening lies in the air: fluid beside it is not pushed
- * away. The outlet is a box in the frame of the tank: fluid inside of it leaves.
- * The rows that came so far are a channel, so that checkpoints have them. Every particle has the
- * number, because a value for all particles lives for a step only; the largest one counts. */
+ * n the integer nearest to width/dp, U the speed. A row that was due within the last step starts at
+ * its position after free fall. The opening is in air: it does not displace adjacent fluid. The
+ * outlet is a box in the frame of the tank: fluid inside of it is removed. The number of rows so
+ * far is a channel, so that checkpoints save it. Every particle has this number, because a scalar
+ * channel lasts for one step only; its maximum is used. */
 #include "inflow.h"
 #include <mps/plugin.h>
 #include <stdbool.h>
@@ -46,7 +46,7 @@ static const mps_channel channels[] = {{.name = "inflow_rows",
                                         .life = MPS_LIFE_PARTICLE,
                                         .initial = 0.0}};
 
-/* A step lets in so many rows at most. */
+/* Maximum number of rows per step. */
 enum { MOST_ROWS = 1000 };
 
 /* Arrays of particles, and a number for all of them. */
@@ -111,7 +111,7 @@ static void axes_across(const mps_view *v, double first[3], double second[3])
     }
 }
 
-/* Places and velocities of a row that left the opening tau ago. */
+/* Positions and velocities of a row that left the opening tau ago. */
 static void place_row(const mps_view *v, double tau, double *x, double *u)
 {
     const int64_t n = across(v), lines = v->dim == 3 ? n : 1;

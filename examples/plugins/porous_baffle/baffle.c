@@ -2,8 +2,8 @@
 /* Porous baffle: a strip of the tank, from <= x < to in its frame, with the drag of Darcy and
  * Forchheimer,
  *   a = -k v,   k = darcy + forchheimer |v|,   v = u - u_tank.
- * The step is implicit, k/(1 + k dt) in place of k: stable for any dt. The baffle has no particles;
- * it tells the library what it does to the fluid, as the part "baffle". */
+ * The update is implicit, k/(1 + k dt) instead of k: stable for any dt. The baffle has no
+ * particles; it reports its force on the fluid to the library, as the part "baffle". */
 #include "baffle.h"
 #include <math.h>
 #include <mps/plugin.h>

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The porous baffle through the kit of models. */
+/* Test the porous baffle with the kit of models. */
 #include "baffle.h"
 #include <model_kit.h>
 #include <mps/mps.h>
 
-/* A baffle all over the scenes of the kit, so that it does something in each. */
+/* A baffle over the whole domain of the scenes of the kit, so that it is active in each. */
 static mps_status prepare(void *user, mps_sim *sim)
 {
     (void)user;

@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A tank in surge near its first natural frequency, with and without a porous baffle in the middle.
- * Checks what the library knows of the baffle:
- *   force    the impulse of the force probe of all solids is that of the liquid, within 3 % at dp 0.01 m, 9 % at 0.02 m: the
- *            half cells at walls, which have no particles, are in the force
- *   share    the same without the baffle's share of the force is off by more
- *   budget   energies add up, and what the baffle takes stands in `plugins`, apart from `viscous`
+ * Checks how the library accounts for the baffle:
+ *   force    the impulse of the force probe of all solids is that of the liquid, within 3 % at
+ *            dp 0.01 m, 9 % at 0.02 m: the force includes half cells at walls without particles
+ *   share    without the force of the baffle the difference is larger
+ *   budget   energies add up; the dissipation of the baffle is in `plugins`, not in `viscous`
  *   damping  the liquid has less energy with the baffle */
 #include "baffle.h"
 #include <math.h>
@@ -13,7 +13,7 @@
 
 static const double LENGTH = 1, HEIGHT = 0.5, DEPTH = 0.2, DP = 0.01; /* [m] */
 
-/* What a run ends with. */
+/* Results of a run. */
 typedef struct result {
     double largest;          /* momentum along x [kg m/s] */
     double off, off_without; /* largest difference of impulse and momentum, over `largest` */
@@ -57,7 +57,7 @@ static int build(mps_sim *sim, double forchheimer)
     return 0;
 }
 
-/* Step, and compare the impulse of the probes with the momentum of the liquid. */
+/* Run steps, and compare the impulse of the probes with the momentum of the liquid. */
 static int run(mps_sim *sim, const int32_t id[2], result *r)
 {
     double t = 0, before = 0, force[2][3], impulse[2] = {0};

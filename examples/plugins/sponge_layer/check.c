@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The sponge layer through the kit of models. */
+/* Test the sponge layer with the kit of models. */
 #include "sponge.h"
 #include <model_kit.h>
 #include <mps/mps.h>
 
-/* A rate, so that the model does something in the scenes of the kit. */
+/* A rate > 0, so that the model is active in the scenes of the kit. */
 static mps_status prepare(void *user, mps_sim *sim)
 {
     (void)user;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Wave flume: a hump of water at the left end runs to the right end, with and without a sponge
- * layer there. A gauge sees the wave pass and what comes back. Prints the reflection, the height of
- * the wave that comes back over the height of the wave that passed.
+/* Wave flume: a hump of water at the left end propagates to the right end, with and without a
+ * sponge layer at that end. A gauge measures the incident and the reflected wave. Prints the
+ * reflection coefficient, the height of the reflected wave over that of the incident wave.
  *
  * usage: flume [dp]       dp: spacing [m], default 0.02
  *        flume --order    print the order of the verbs of a step instead */
@@ -14,7 +14,7 @@
 
 static const double LENGTH = 5, HEIGHT = 0.4, DEPTH = 0.2; /* of the flume and the water [m] */
 static const double HUMP = 0.04, WIDTH = 0.5;              /* height and half length [m] */
-static const double GAUGE = 2.0, SPONGE = 3.0;             /* places [m] */
+static const double GAUGE = 2.0, SPONGE = 3.0;             /* positions [m] */
 
 /* Print an error of the library. @return 1 */
 static int failed(const mps_sim *sim, const char *what)
@@ -80,7 +80,7 @@ static int highest(mps_sim *sim, int32_t gauge, double until, double *most)
     return 0;
 }
 
-/* Height of the wave that passes the gauge, and of the one that comes back, over it. */
+/* Height of the incident wave at the gauge, and ratio of the reflected wave to it. */
 static int measure(double dp, double rate, double *reflection)
 {
     const double speed = sqrt(9.81 * DEPTH), back = (2 * LENGTH - GAUGE) / speed;
@@ -94,11 +94,11 @@ static int measure(double dp, double rate, double *reflection)
     int bad = build(sim, &gauge) || add_sponge(sim, rate);
     bad = bad || mps_probe_read(sim, gauge, &still) < 0;
     bad = bad || highest(sim, gauge, 2.0, &wave);
-    bad = bad || highest(sim, gauge, back - 1.2, &returned); /* the tail of the wave */
+    bad = bad || highest(sim, gauge, back - 1.2, &returned); /* tail of the wave */
     bad = bad || highest(sim, gauge, back + 0.8, &returned);
     mps_sim_destroy(sim);
     if (bad) return 1;
-    returned -= HUMP * WIDTH / 2 / LENGTH; /* the water of the hump, spread over the flume */
+    returned -= HUMP * WIDTH / 2 / LENGTH; /* the volume of the hump, distributed over the flume */
     *reflection = (returned - still) / (wave - still);
     printf("rate %4.1f 1/s: wave %.2f mm, reflected %.2f mm, reflection %.3f\n", rate,
            1000 * (wave - still), 1000 * (returned - still), *reflection);

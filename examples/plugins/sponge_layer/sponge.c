@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sponge layer: damps the velocity of the fluid relative to the tank,
  *   a = -k(x) (u - u_tank),   k(x) = rate s^2,   s = (x - from)/(to - from), 0 <= s <= 1,
- * x the place in the frame of the tank. s = 0 outside of the layer, before `from`. With to < from
- * the layer begins at the right and ends at the left. k grows smoothly from 0, so that the front of
- * the layer reflects little. The step is implicit, k/(1 + k dt) instead of k: stable for any dt. */
+ * x the position in the frame of the tank. s = 0 before `from`. With to < from the layer extends
+ * from right to left. k increases smoothly from 0, so that the front of the layer reflects little.
+ * The update is implicit, k/(1 + k dt) instead of k: stable for any dt. */
 #include "sponge.h"
 
 enum { FROM, TO, RATE, SETTINGS };
@@ -16,13 +16,13 @@ enum { VELOCITY, ACCELERATION, USES };
 static const mps_use uses[USES] = {
     [VELOCITY] = {"velocity", MPS_USE_READ}, [ACCELERATION] = {"acceleration", MPS_USE_CHANGE}};
 
-/* What the row function needs. */
+/* Fields of the row function. */
 typedef struct fields {
     const double *velocity;
     double *acceleration;
 } fields;
 
-/* Damping at a place of the tank [1/s]. */
+/* Damping at a position in the tank [1/s]. */
 static double damping(const mps_view *v, double x)
 {
     const double length = v->setting[TO] - v->setting[FROM];

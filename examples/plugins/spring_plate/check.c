@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The body on a spring through the kit of models, which compares bytes on ranks and over a
- * checkpoint: the floor of its tanks is the body. And the same bytes after steps that failed. */
+/* Test the body on a spring with the kit of models, which compares bytes on ranks and over a
+ * checkpoint: the floor of its tanks is the body. Then compare bytes after failed steps. */
 #include "spring.h"
 #include <model_kit.h>
 #include <mps/mps.h>
@@ -31,7 +31,7 @@ static mps_status prepare(void *user, mps_sim *sim)
     return status < 0 ? status : choose_floor(sim);
 }
 
-/* ---- steps that fail ------------------------------------------------------------------------- */
+/* ---- failed steps ------------------------------------------------------------------------- */
 
 static int fail_on_demand(mps_stage *s)
 {
@@ -63,7 +63,8 @@ static mps_status build(mps_sim *sim, int32_t *wanted)
     return status < 0 ? status : prepare(NULL, sim);
 }
 
-/* Numbers after some steps, between which others fail. @return how many; 0 after a failure */
+/* State after several steps, with failed steps in between. @return number of values; 0 after a
+ * failure */
 static int64_t numbers(int failing, double *value, int64_t most)
 {
     static const char *const names[] = {"position", "velocity", "spring_motion"};

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A plate that fills the width of a column carries water, and stands on a spring. The water moves
- * with the plate, so that the added mass is its mass:  omega^2 = k/(m + rho W h).
- * The particles of the plate and of the water end dp/2 before the walls: W - dp is W in the limit.
- * Prints the frequency over the exact one.
+/* A plate over the width of a column carries water and is supported by a spring. The water moves
+ * with the plate, so that the added mass is its mass:  omega^2 = k/(m + rho W h). The particles of
+ * the plate and of the water end dp/2 before the walls: W - dp is W in the limit. Prints the ratio
+ * of the frequency to the exact one.
  *
  * usage: column [dp [file]]   dp: spacing [m], default 0.01; file: t and displacement, as text */
 #include "spring.h"
@@ -29,7 +29,7 @@ static void tell(void *user, int level, const char *text)
     fprintf(stderr, "%s\n", text);
 }
 
-/* Particles of the part "plate" are the body, which begins off its place of rest. */
+/* Particles of the part "plate" are the body, initially displaced from equilibrium. */
 static int choose_body(mps_sim *sim)
 {
     mps_lease part = {.struct_size = sizeof part}, member = {.struct_size = sizeof member},
@@ -54,7 +54,7 @@ static int set(mps_sim *sim, const char *key, double value)
     return mps_model_set(sim, "body", key, value) < 0 ? failed(sim, key) : 0;
 }
 
-/* The column, the plate and the water on it; the spring carries it at displacement 0. */
+/* The column, the plate and the water on it; equilibrium is at displacement 0. */
 static int build(mps_sim *sim, double dp)
 {
     const double pi = acos(-1.0), water = 1000 * WIDTH * DEPTH;
@@ -76,7 +76,7 @@ static int build(mps_sim *sim, double dp)
            set(sim, "force", 9.81 * carried) || choose_body(sim);
 }
 
-/* What is followed: the last displacement, times at which it passes 0 upwards. */
+/* Recorded data: the last displacement, times of its upward zero crossings. */
 typedef struct track {
     FILE *file; /* or NULL */
     double t, x, first, last, most;

@@ -1,17 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* A rigid body on a spring and a damper, which moves along one axis of a tank at rest:
  *   m a = F + f - k x - c u,   F = -sum p_i A_i  over its wall particles,
- * x its displacement, u = dx/dt, f a given force, e.g. its weight.
- * The pressures of a step follow from the motion in it, so that F is known one step late. Where the
- * water that moves along is heavier than the body, a = (F + f - k x - c u)/m would grow without
- * bound. With an estimate m_a of the added mass,
+ * x its displacement, u = dx/dt, f a given force, e.g. its weight. The pressures of a step depend
+ * on the motion in this step, so that F is known one step late. If the added mass exceeds the mass
+ * of the body, a = (F + f - k x - c u)/m is unstable. With an estimate m_a of the added mass,
  *   a_new = (F + m_a a_old + f - k x - c u)/(m + m_a),   u += dt a_new,   x += dt u,
  * errors of one step are multiplied by (m_a - exact)/(m + m_a): stable if m_a > (exact - m)/2. The
- * solution does not depend on m_a if a changes slowly. The body is held until F is known.
+ * solution does not depend on m_a if a changes slowly. The body is fixed until F is known.
  *
- * The rows of the body are those where the field "spring_member" is 1; the caller writes it. All of
- * them have the same numbers in "spring_motion". The body must be thicker than 3 dp: thin plates
- * do not move. */
+ * Particles of the body have 1 in the field "spring_member", which the caller writes. All of them
+ * have the same numbers in "spring_motion". The body must be thicker than 3 dp: thin plates do not
+ * move. */
 #include "spring.h"
 #include <stdbool.h>
 
@@ -59,8 +58,8 @@ MPS_ROW bool is_member(const mps_view *v, const fields *f, int64_t i)
 
 /* ---- MPS_LIMIT ------------------------------------------------------------------------------- */
 
-/* u and x one after the other are stable below dt = 2/omega; a tenth of it is exact enough. The
- * explicit damper needs dt < 2 m/c. */
+/* Successive updates of u and x are stable below dt = 2/omega; a tenth of it is sufficiently
+ * accurate. The explicit damper needs dt < 2 m/c. */
 static int limit_step(mps_stage *s)
 {
     const double *k = s->view->setting, mass = k[MASS] + k[ADDED_MASS];

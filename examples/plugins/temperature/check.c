@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The model of temperature through the kit of models. */
+/* Test the temperature model with the kit of models. */
 #include "temperature.h"
 #include <math.h>
 #include <model_kit.h>
 #include <mps/mps.h>
 
-/* Temperatures that differ, a law of viscosity and warm walls: all parts of the model act. */
+/* Non-uniform temperatures, a law of viscosity and warm walls: all parts of the model are
+ * active. */
 static mps_status prepare(void *user, mps_sim *sim)
 {
     mps_lease x = {.struct_size = sizeof x}, temperature = {.struct_size = sizeof temperature};

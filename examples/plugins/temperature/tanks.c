@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Three tanks with the model "temperature.conduction".
- *   mixing: a sloshing tank, warm at the left and cold at the right, adiabatic walls. The sum of
- *     the temperatures must stay.
- *   decay: a full tank at rest, T = wall + A sin(pi x/L) sin(pi y/H), walls at a constant
- *     temperature. A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within 2 %.
- *   friction: the sloshing tank, cold. With the law of viscosity friction must take more energy. */
+ *   mixing:   a sloshing tank, warm at the left and cold at the right, adiabatic walls. The sum of
+ *             the temperatures must be constant.
+ *   decay:    a full tank at rest, T = wall + A sin(pi x/L) sin(pi y/H), walls at a constant
+ *             temperature. A must decay as exp(-kappa k^2 t), k^2 = (pi/L)^2 + (pi/H)^2, within
+ *             2 %.
+ *   friction: the sloshing tank, cold. With the law of viscosity friction must dissipate more
+ *             energy. */
 #include "temperature.h"
 #include <math.h>
 #include <mps/mps.h>
@@ -14,7 +16,7 @@ static const double LENGTH = 0.4, HEIGHT = 0.2; /* [m] */
 static const double KAPPA = 1e-3;               /* [m2/s] */
 static const double WALL = 300, AMPLITUDE = 20; /* [K] */
 
-/* Temperature at a place [K]. */
+/* Temperature at a position [K]. */
 typedef double (*profile)(const double *x);
 
 /* Print an error of the library. @return 1 */
@@ -35,7 +37,7 @@ static double sine(const double *x)
     return WALL + AMPLITUDE * sin(pi * x[0] / LENGTH) * sin(pi * x[1] / HEIGHT);
 }
 
-/* A tank with water up to a depth, the model switched on. */
+/* A tank with water up to a depth, with the model. */
 static int build(mps_sim *sim, double depth)
 {
     const double lo[2] = {0, 0}, hi[2] = {LENGTH, depth};
@@ -52,7 +54,7 @@ static int build(mps_sim *sim, double depth)
     return 0;
 }
 
-/* Write the first temperatures: the channel is a field while the model is on. */
+/* Write the initial temperatures: the channel is a field while the model is active. */
 static int warm(mps_sim *sim, profile at)
 {
     mps_lease x = {.struct_size = sizeof x}, temperature = {.struct_size = sizeof temperature};
@@ -118,7 +120,7 @@ static double cold(const double *x)
     return 280;
 }
 
-/* Energy that friction takes from a cold sloshing tank [J/m]. */
+/* Energy dissipated by friction in a cold sloshing tank [J/m]. */
 static int lost(mps_sim *sim, double arrhenius, double *energy)
 {
     const mps_harmonic surge = {.dof = MPS_MOVE_X, .amplitude = 0.01, .omega = 7.0};

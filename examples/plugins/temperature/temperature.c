@@ -1,13 +1,15 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Temperature of one liquid: it travels with the particles, conducts heat and sets the viscosity.
+/* Temperature of one liquid: advected with the particles, with heat conduction and a law of
+ * viscosity.
  *   dT/dt = kappa <lap T>,   <lap T>_i = 2D/(n0 lambda) sum (T_j - T_i) W over far pairs,
  *   mu = mu_phase exp(B (1/T - 1/T0))   (Arrhenius)
- * Pairs of fluid are symmetric, so they conserve sum T, the heat. Walls:
- *   adiabatic 1 (default): pairs with solids carry no heat. Beside walls and the free surface pairs
- *     are missing, so heat flows more slowly along them, within some 2 dp.
- *   adiabatic 0: walls have the temperature `wall`. A dummy is seen mirrored, T_j - wall =
- *     -(T_i - wall) times the ratio of their distances from the face, so that T is `wall` on it.
- * The displacement of MPS_SHIFT carries T along without correction: a small numerical diffusion. */
+ * Pairs of fluid are symmetric and conserve sum T, the heat. Walls:
+ *   adiabatic 1 (default): no heat flux in pairs with solids. Near walls and the free surface pairs
+ *     are missing, so heat flows more slowly along them, within about 2 dp.
+ *   adiabatic 0: walls have the temperature `wall`. A dummy has a mirrored temperature,
+ *     T_j - wall = -(T_i - wall) times the ratio of their distances from the face, so that
+ *     T = `wall` on the face.
+ * The displacement of MPS_SHIFT moves T without correction: a small numerical diffusion. */
 #include "temperature.h"
 
 enum { KAPPA, ADIABATIC, WALL, ARRHENIUS, REFERENCE, SETTINGS };
@@ -39,7 +41,7 @@ static const mps_channel channels[] = {{.name = "temperature",
                                         .life = MPS_LIFE_STEP,
                                         .initial = 0.0}};
 
-/* Arrays of particles that the loops use; each verb sets those that its loops need. */
+/* Arrays of particles that the loops use; each verb sets the arrays of its loops. */
 typedef struct fields {
     const double *density;
     double *temperature, *viscosity, *rate;
@@ -105,7 +107,7 @@ enum { CONDUCT_TEMPERATURE, CONDUCT_USES };
 static const mps_use conduct_uses[CONDUCT_USES] = {
     [CONDUCT_TEMPERATURE] = {"temperature", MPS_USE_NEIGHBOURS | MPS_USE_CHANGE}};
 
-/* T_j - T_i of a solid particle of temperature `wall`, as fluid particle i sees it. */
+/* T_j - T_i of a solid particle j at temperature `wall` and a fluid particle i. */
 MPS_ROW double step_to_solid(const int dim, const mps_view *v, double own, int64_t i, int64_t j)
 {
     const int64_t w = v->kind[j] == MPS_DUMMY ? v->wall_of[j] : j;

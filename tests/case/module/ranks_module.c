@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A module of ranks without messages, for tests/case/test_ranks.c: rank 2 of 5; with MPS_TEST_OLD in the environment one of another version. */
+/* A communication module without messages, for tests/case/test_ranks.c: rank 2 of 5; with
+ * MPS_TEST_OLD in the environment, of another version. */
 #include <mps/job.h>
 #include <stdlib.h>
 

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* malloc(), calloc() and realloc() of a program that is started with this in LD_PRELOAD: call number FAIL_AT fails, once. Calls of the program and of libmps
- * count; other libraries (SUNDIALS, fontconfig) do not survive a failure of theirs. The number of calls is written to the file COUNT_CALLS, where it is given. */
+/* malloc(), calloc() and realloc() of a program that is started with this in LD_PRELOAD: call
+ * number FAIL_AT fails, once. Calls of the program and of libmps are counted; other libraries
+ * (SUNDIALS, fontconfig) crash on a failed call. The number of calls is written to the file
+ * COUNT_CALLS, if set. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
 #include <errno.h>
@@ -22,7 +24,8 @@ static void at_exit(void)
     atomic_store(&ended, 1);
 }
 
-/* Not at exit, where the run-time of a coverage build takes memory. What is registered before main() runs too late: so at some of the first calls. */
+/* Not at exit, where the run-time of a coverage build takes memory. What is registered before
+ * main() runs too late: so at some of the first calls. */
 static int fails(const void *caller)
 {
     Dl_info from;

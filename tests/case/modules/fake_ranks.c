@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A module of messages without MPI, for programs that are started alone with --mpi: TEST_RANKS is "rank count code heard". With two ranks the other one
- * is played: it ends with this exit code where the ranks agree, -1: it goes on; heard 0: it does not answer a rank that leaves. What the program asks of the
- * ranks is told on stderr. */
+/* A communication module without MPI, for single programs with --mpi: TEST_RANKS is "rank count
+ * code heard". With two ranks the other one is simulated: it ends with this exit code when the
+ * ranks agree, -1: it continues; heard 0: it does not respond to a rank that ends. Requests of the
+ * program to the ranks are printed to stderr. */
 #include <mps/job.h>
 #include <mps/mps.h>
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Values of programs that agree, and of a rank that leaves; see mps.c and mps_job_ranks_leave(). */
+/* Values of ranks that agree, and of a rank that ends; see mps.c and mps_job_ranks_leave(). */
 enum { AGREE = 2, LEAVE = 3 };
 
 static int rank, count = 1, code = -1, heard = 1;

@@ -2,7 +2,7 @@
 #ifndef STUB_KINSOL_H
 #define STUB_KINSOL_H
 #include <sundials/sundials_linearsolver.h>
-/* KINSetErrFile and KINSetErrHandlerFn are gone: errors go to the handlers of the context */
+/* KINSetErrFile and KINSetErrHandlerFn are removed: errors go to the handlers of the context */
 enum { KIN_NONE = 0, KIN_ETACHOICE1 = 1, KIN_ETACHOICE2 = 2, KIN_ETACONSTANT = 3 };
 enum {
     KIN_MEM_FAIL = -4,

@@ -5,7 +5,7 @@
 enum {
     SUN_ERR_MALLOC_FAIL = -9988,
     SUN_SUCCESS = 0
-}; /* SUNLS_SUCCESS is gone, as are SUNLS_MEM_NULL and SUNLS_ILL_INPUT */
+}; /* SUNLS_SUCCESS, SUNLS_MEM_NULL and SUNLS_ILL_INPUT are removed */
 typedef void (*SUNErrHandlerFn)(int line, const char *func, const char *file, const char *msg,
                                 SUNErrCode code, void *user, SUNContext context);
 SUNErrCode SUNContext_Create(SUNComm comm, SUNContext *context);

@@ -3,7 +3,7 @@
 #define STUB_SUNDIALS_LINEARSOLVER_H
 #include <sundials/sundials_matrix.h>
 #include <sundials/sundials_nvector.h>
-enum { SUN_PREC_NONE, SUN_PREC_LEFT, SUN_PREC_RIGHT, SUN_PREC_BOTH }; /* PREC_NONE ... are gone */
+enum { SUN_PREC_NONE, SUN_PREC_LEFT, SUN_PREC_RIGHT, SUN_PREC_BOTH }; /* without PREC_NONE etc. */
 #define SUNLS_RES_REDUCED 801
 #define SUNLS_CONV_FAIL   802
 typedef struct stub_solver {
