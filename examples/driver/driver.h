@@ -38,16 +38,13 @@ typedef struct driver {
     double amplitude;          /* of the motion [m]; offered by drivers that set it */
     double ramp;               /* periods in which the motion grows; offered with has_ramp */
     int32_t layers;            /* columns of a baffle, 0: as it is thick; has_layers */
-    const char *stl;           /* NULL, or a file with the tank; has_stl */
-    double stl_scale;          /* [m] a unit of it */
     double sigma;              /* surface tension [N/m]; has_sigma */
-    bool has_dim, has_ramp, has_layers, has_stl, has_sigma;
+    bool has_dim, has_ramp, has_layers, has_sigma;
     bool resume, overwrite, pieces, tank_frame, mpi, report, quiet, profile;
     bool average_given, sigma_given; /* by the user */
     bool no_gas; /* both phases are liquids: the model of the gas is switched off */
     const char *
         need; /* NULL, or "slot.variant" for all models where there are two phases and its slot is empty */
-    const char *prefer; /* NULL, or "slot.key=value", set before --set where the model has it */
     /* models of several phases suit the case; it has two phases whatever the model: by its default */
     bool two_phases, both_phases;
     int owns; /* options of this driver alone */

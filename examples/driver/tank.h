@@ -38,10 +38,6 @@ void tank_walls_about(driver *d, const double *size, double middle, double *lo, 
 void tank_liquid(driver *d, const double *hi, bool whole_rows, double *built);
 /* The same in the whole tank up to a depth. @return the still level */
 double tank_fill(driver *d, const double *size, double depth, bool whole_rows);
-/* Gas in all that is left of a box from the origin. */
-void tank_air(driver *d, const double *size);
-/* A harmonic motion that grows over the periods of --ramp. */
-void tank_move(driver *d, mps_harmonic motion);
 /* Whether the motion is the driver's own, that its references belong to. */
 bool tank_moves_as_given(const driver *d, const tank_case *c);
 /* Command line of a driver of such a tank, and run and outputs; the case may be changed in between. */
