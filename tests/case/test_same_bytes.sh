@@ -11,7 +11,10 @@ failed=0
 
 # name, time simulated [s]: some tens of steps; test_files.sh has the cases without a driver
 table=$(dirname "$0")/short_runs
-diff <(cut -d' ' -f1 "$table" | sort) <(basename -a -s .yaml "$cases"/*.yaml | sort) || { echo "FAILED: short_runs is not a line for each case"; exit 1; }
+diff <(cut -d' ' -f1 "$table" | sort) <(basename -a -s .yaml "$cases"/*.yaml | sort) || {
+    echo "FAILED: short_runs has not a line for each case"
+    exit 1
+}
 times=$(grep -f <(basename -a -s .c "$(dirname "$0")"/../../examples/*.c | sed 's/.*/^& /') "$table")
 count=$(wc -l <<< "$times")
 [ "$count" -eq "$(ls "$(dirname "$0")"/../../examples/*.c | wc -l)" ] || { echo "FAILED: a driver has no case"; exit 1; }

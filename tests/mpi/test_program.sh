@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air, and each case that has no driver; an interrupted run goes on with
-# another number of ranks; what is refused is said once. 77: MPI starts no ranks here. With "all" each case has 2 to 5 ranks.
+# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air, and of each case that has no driver; an interrupted run
+# continues with another number of ranks; each error is printed once. 77: MPI starts no ranks here. With "all" each case has 2 to 5 ranks.
 # usage: tests/mpi/test_program.sh FOLDER_OF_MPS MPIRUN CASES [all]
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
@@ -51,7 +51,8 @@ cushion 4 CASES/air_cushion.yaml dp=30~mm run.until=0.01~s output.frames=1
 CASES
 for case in "$cases"/*.yaml; do # ranks/body has bodies
     name=$(basename "$case" .yaml)
-    [ -e "$here/../../examples/$name.c" ] || grep -q '^body:' "$case" || [[ $tested == *" CASES/$name.yaml "* ]] || fail "$name has no driver and is not tested on ranks"
+    [ -e "$here/../../examples/$name.c" ] || grep -q '^body:' "$case" || [[ $tested == *" CASES/$name.yaml "* ]] ||
+        fail "$name has no driver and is not tested on ranks"
 done
 
 # frames in pieces
