@@ -93,8 +93,8 @@ int32_t mps__build_phase(build *b, const tree_node *at, const char *name)
     return phase;
 }
 
-/* Whether 'use' adds a model that imps lacks for several fluids: the case compares its scheme with
- * that of mmps. */
+/* Whether 'use' adds a model that imps lacks for several fluids: the case compares imps with
+ * mmps. */
 static bool adds_for_several(const build *b)
 {
     static const char *const slot[] = {"tension.", "gas.", "reference."};
