@@ -146,8 +146,6 @@ static int make_table(driver *d, option *table)
     if (d->amplitude > 0) table[n++] = (option){"--amplitude", "M", "amplitude of the motion [m]", TYPE_REAL, &d->amplitude, 0, 10, false, NULL};
     if (d->has_ramp) table[n++] = (option){"--ramp", "N", "periods in which the motion grows to its amplitude; 0: it starts at once", TYPE_REAL, &d->ramp, -1, 100, false, NULL};
     if (d->has_layers) table[n++] = (option){"--layers", "N", "columns of particles of the baffle; 0: by its thickness", TYPE_INT, &d->layers, 0, 100, false, NULL};
-    if (d->has_stl) table[n++] = (option){"--stl", "FILE", "STL file of a closed tank, in place of the cylinder", TYPE_TEXT, &d->stl, 0, 0, false, NULL};
-    if (d->has_stl) table[n++] = (option){"--stl-scale", "M", "length of a unit of the STL file [m]", TYPE_REAL, &d->stl_scale, 0, 1e6, false, NULL};
     if (d->has_sigma) table[n++] = (option){"--sigma", "N/M", "surface tension [N/m], for models that have it", TYPE_REAL, &d->sigma, -1, 100, false, &d->sigma_given};
     for (int i = 0; i < d->owns; i++) table[n++] = d->own[i];
     table[n++] = (option){"--no-report", NULL, "no report.html", TYPE_FLAG, &d->report, 0, 0, false, NULL};
@@ -223,7 +221,6 @@ void driver_defaults(driver *d, const char *program, const char *about)
                   .t_max = 1e4,
                   .probe_dt = 1e-3,
                   .sensor_average = MPS_AVERAGE_AUTO,
-                  .stl_scale = 1,
                   .gravity = 9.81,
                   .sigma = 7.27e-2, /* water and air */
                   .threads = 2,

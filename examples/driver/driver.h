@@ -39,16 +39,13 @@ typedef struct driver {
     double amplitude;          /* of the motion [m]; offered by drivers that set it */
     double ramp;               /* ramp of the motion [periods]; offered with has_ramp */
     int32_t layers;            /* columns of a baffle, 0: by its thickness; has_layers */
-    const char *stl;           /* NULL, or a file with the tank; has_stl */
-    double stl_scale;          /* its length unit [m] */
     double sigma;              /* surface tension [N/m]; has_sigma */
-    bool has_dim, has_ramp, has_layers, has_stl, has_sigma;
+    bool has_dim, has_ramp, has_layers, has_sigma;
     bool resume, overwrite, pieces, tank_frame, mpi, report, quiet, profile;
     bool average_given, sigma_given; /* set by the user */
     bool no_gas;                     /* both phases are liquids: the gas model is switched off */
     /* NULL, or "slot.variant", activated if there are two phases and its slot is empty */
     const char *need;
-    const char *prefer; /* NULL, or "slot.key=value", set before --set if the model has it */
     /* case allows models of several phases; it always has two phases: by its default */
     bool two_phases, both_phases;
     int owns; /* options of this driver alone */

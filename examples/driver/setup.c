@@ -37,10 +37,7 @@ static void suit_models(driver *d)
     char slot[48];
     if (d->no_gas && has_model(d, "gas"))
         driver_check(d, mps_model_remove(d->sim, "gas"), "models");
-    if (d->gravity == 0 && has_model(d, "reference"))
-        driver_check(d, mps_model_remove(d->sim, "reference"), "models"); /* needs the direction of
-                                                                             gravity */
-    else if (d->no_gas)
+    if (d->no_gas)
         driver_check(d, mps_model_use(d->sim, "reference.lid"),
                      "models"); /* p = 0 at the top of the gas, as in the papers, is inside the
                                    tank */
@@ -92,7 +89,6 @@ static void use_models(driver *d)
     use_each(d, "--use", &d->use, use_model);
     use_each(d, "--remove", &d->remove, remove_model);
     set_tension(d);
-    if (d->prefer) set_model(d, d->prefer);
     use_each(d, "--set", &d->set, set_model);
 }
 

@@ -58,31 +58,28 @@ double tank_fill(driver *d, const double *size, double depth, bool whole_rows)
     return built[d->dim + 1];
 }
 
-void tank_air(driver *d, const double *size)
+/* Gas in all that is left of a box from the origin. */
+static void add_air(driver *d, const double *size)
 {
     const double lo[3] = {0};
     driver_phase(d, 1, TANK_AIR_DENSITY, TANK_AIR_VISCOSITY);
     driver_check(d, mps_fill_box_add(d->sim, 1, lo, size, NULL, NULL), "air");
 }
 
-/* user: NULL: surge; else roll in degrees */
-static double moved(void *user, mps_sim *sim)
+static double surge(void *user, mps_sim *sim)
 {
     mps_motion_state tank = {.struct_size = sizeof tank};
-    if (mps_motion_state_get(sim, &tank) < 0) return NAN;
-    return user ? 180 / acos(-1.0) * tank.value[MPS_ROTATE_Z] : tank.value[MPS_MOVE_X];
+    (void)user;
+    return mps_motion_state_get(sim, &tank) < 0 ? NAN : tank.value[MPS_MOVE_X];
 }
 
-void tank_move(driver *d, mps_harmonic motion)
+/* A harmonic motion that grows over the periods of --ramp. */
+static void move(driver *d, mps_harmonic motion)
 {
-    static int32_t rolls = MPS_ROTATE_Z;
-    const bool turn = motion.dof == rolls;
     motion.ramp = d->ramp * 2 * acos(-1.0) / motion.omega;
     driver_check(d, mps_motion_harmonics_set(d->sim, 1, &motion), "motion");
-    driver_value(d, turn ? "roll" : "surge", turn ? "deg" : "m",
-                 turn ? "Rotation of the tank, roll: about the centre, as prescribed"
-                      : "Displacement of the tank, surge: of the centre, as prescribed",
-                 MPS_JOB_MOTION, moved, turn ? &rolls : NULL);
+    driver_value(d, "surge", "m", "Displacement of the tank, surge: of the centre, as prescribed",
+                 MPS_JOB_MOTION, surge, NULL);
 }
 
 bool tank_moves_as_given(const driver *d, const tank_case *c)
@@ -109,8 +106,8 @@ int tank_run(driver *d, tank_case c, tank_columns_fn columns)
     tank_walls(d, c.size);
     if (c.plate.top > 0) add_baffle(d, &c.plate, c.size[2]);
     c.level = tank_fill(d, c.size, c.depth, c.whole_rows);
-    if (driver_has_gas(d)) tank_air(d, c.size);
-    tank_move(d, motion);
+    if (driver_has_gas(d)) add_air(d, c.size);
+    move(d, motion);
     columns(d, &c);
     return driver_run(d);
 }

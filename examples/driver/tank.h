@@ -41,10 +41,6 @@ void tank_walls_about(driver *d, const double *size, double middle, double *lo, 
 void tank_liquid(driver *d, const double *hi, bool whole_rows, double *built);
 /* Liquid in the whole tank up to a depth. @return the still level */
 double tank_fill(driver *d, const double *size, double depth, bool whole_rows);
-/* Gas in the remaining space of a box from the origin. */
-void tank_air(driver *d, const double *size);
-/* A harmonic motion with the ramp of --ramp. */
-void tank_move(driver *d, mps_harmonic motion);
 /* Whether the motion is the driver's default, for which its references are valid. */
 bool tank_moves_as_given(const driver *d, const tank_case *c);
 /* Command line, and run with outputs, of a driver of such a tank; the case may be changed in

@@ -17,11 +17,11 @@ def arguments():
     p = argparse.ArgumentParser(prog="scripts/validate", description="Run the validation cases, compare them, write docs/validation.md, docs/validation/, docs/paper-cases.md and docs/plots.")
     p.add_argument("--no-install", action="store_true", help="do not install missing packages")
     p.add_argument("--data", metavar="DIR", help="folder with reference/ and theory/: series to compare with")
-    p.add_argument("--jobs", type=int, default=1, metavar="N", help="drivers at a time, each on one thread (1)")
+    p.add_argument("--jobs", type=int, default=1, metavar="N", help="runs at a time, each on one thread (1)")
     p.add_argument("--out", default=str(ROOT / "build/validation"), metavar="DIR", help="folder for the runs (build/validation)")
     p.add_argument("--only", metavar="CASE,CASE", help="these cases, also impact_*; the page is written from all that are there")
     p.add_argument("--resolutions", choices=LEVELS, default="standard", help="up to which spacing (standard)")
-    p.add_argument("--examples", default=str(ROOT / "build/release/examples"), metavar="DIR", help="drivers that are built already")
+    p.add_argument("--build", default=str(ROOT / "build/release"), metavar="DIR", help="a build with mps and the drivers")
     p.add_argument("--no-run", action="store_true", help="evaluate what is there")
     p.add_argument("--docs", default=str(ROOT / "docs"), metavar="DIR", help="folder of the pages and plots (docs)")
     p.add_argument("--no-page", action="store_true", help="print the figures, write no page")
@@ -64,7 +64,7 @@ def worse_than_expected(page, cases):
 def main():
     options = arguments()
     wanted = runs(options.cases, options.resolutions)
-    runner = Runner(options.examples, options.out, options.jobs, options.again)
+    runner = Runner(options.build, options.out, options.jobs, options.again)
     if options.list:
         for run in wanted:
             say(f"{run.name:34s} {run.level:9s} {run.minutes:6.1f} min  {' '.join(runner.command(run))}")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The cases: which driver with which options at which spacings, and how it is evaluated."""
+"""The cases: which driver or case file with which options at which spacings, and how it is evaluated."""
 from dataclasses import dataclass
 from fnmatch import fnmatch
 from typing import Callable
@@ -13,38 +13,41 @@ LEVELS = ("coarse", "standard", "fine")
 
 @dataclass(frozen=True)
 class Run:
-    """One run of a driver. `minutes`: CPU minutes on one core of about 2.5 GHz, to plan with."""
+    """One run. `minutes`: CPU minutes on one core of about 2.5 GHz, to plan with."""
     case: str
-    driver: str
+    program: str
     dp: float
     level: str
     minutes: float
     options: tuple = ()
     suffix: str = ""
     cfl: float | None = None
+    other_model: str | None = None  # literal equations, or a model that is not meant for the case
+
+    @property
+    def of_mps(self):
+        return self.program.endswith(".yaml")
 
     @property
     def name(self):
         return f"{self.case}-{self.dp:g}{self.suffix}" + ("" if self.cfl is None else f"-cfl{self.cfl:g}")
 
-    @property
-    def other_model(self):
-        """Not the model of the case: literal equations, or one that is not meant for it."""
-        return self.options[-1] if self.suffix else None
-
 
 @dataclass(frozen=True)
 class Case:
-    """`spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine. `expected`: figures that reached their limit at the
-    coarsest dp, with some room, and must go on doing so. `cfl`: lengths of the step tried at one dp, too. `others`: models tried at the coarsest dp to see how far they get. `paper`: made for
-    docs/paper-cases.md alone, with frames."""
+    """`program`: a driver with its options, or a file of cases/ that `mps` runs with values path=value.
+    `spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine.
+    `expected`: figures that reached their limit at the coarsest dp, with some room, and must go on doing so.
+    `cfl`: lengths of the step tried at one dp, too.
+    `others`: models tried at the coarsest dp to see how far they get; of a case file model -> what else it needs.
+    `paper`: made for docs/paper-cases.md alone, with frames."""
     name: str
-    driver: str
+    program: str
     spacings: dict
     evaluate: Callable
     options: tuple = ()
     levels: tuple = LEVELS
-    others: tuple = ("imps.paper",)
+    others: tuple | dict = ("imps.paper",)
     expected: tuple = ()
     paper: bool = False
     cfl: tuple = ()
@@ -52,14 +55,15 @@ class Case:
 
     def runs(self):
         for (dp, minutes), level in zip(self.spacings.items(), self.levels):
-            yield Run(self.name, self.driver, dp, level, minutes, self.options)
+            yield Run(self.name, self.program, dp, level, minutes, self.options)
         for cfl in self.cfl:
             minutes = self.spacings[self.cfl_dp] * max(1, 0.3 / cfl)
-            yield Run(self.name, self.driver, self.cfl_dp, "standard", minutes, (*self.options, "--cfl", f"{cfl:g}"), cfl=cfl)
+            yield Run(self.name, self.program, self.cfl_dp, "standard", minutes, (*self.options, "--cfl", f"{cfl:g}"), cfl=cfl)
         for model in self.others:
             dp, minutes = next(iter(self.spacings.items()))
             suffix = "-paper" if model == "imps.paper" else f"-{model}"
-            yield Run(self.name, self.driver, dp, "standard", minutes, (*self.options, "--model", model), suffix)
+            change = (f"model={model}", *self.others[model]) if isinstance(self.others, dict) else ("--model", model)
+            yield Run(self.name, self.program, dp, "standard", minutes, (*self.options, *change), suffix, other_model=model)
 
 
 def options(text):
@@ -76,14 +80,19 @@ WAVE = tuple(f"{figure}, {place}{unit}" for place in ("crests at the wall", "cen
 BAFFLE = ("line of the spectrum at gauge a", "line of the spectrum at gauge c", "amplitude at gauge a / unbaffled", "amplitude at gauge c / unbaffled",
           "volume error [%]")
 TWO_PHASES = ("mmps.paper", "imps", "imps.paper")
+ONE_PHASE = ("imps", "imps.paper")  # they have no gas and no tension, and their walls have no slip
+BUBBLE = {"mmps.paper": ("use=reference.lid",),
+          **dict.fromkeys(ONE_PHASE, ("remove=[]", "use=[reference.lid, tension.csf]", "settings={tension.sigma: 24.5 N/m}"))}
+DROP = {"mmps.paper": (), **dict.fromkeys(ONE_PHASE, ("use=tension.csf",))}
+CUSHION = {"mmps.paper": (), **dict.fromkeys(ONE_PHASE, ("use=gas.compressible", "settings={gas.sound: 340 m/s}"))}
 STEPS = (0.05, 0.1, 0.2, 0.5)
 LOW_FILL, START = "--t-end 10 --frames 200 --pictures 2.75,4.8,6.1,7.85", "--t-end 3 --frames 30"
 
 CASES = [
     Case("static_tank", "static_tank", {0.02: 0.15, 0.01: 1, 0.005: 6}, e.static_tank, expected=STILL),
     Case("static_tank_3d", "static_tank", {0.03: 0.5, 0.02: 2, 0.015: 6}, e.static_tank_3d, options("--dim 3"), expected=STILL),
-    Case("standing_wave", "standing_wave", {0.02: 0.5, 0.01: 3, 0.005: 20}, e.standing_wave, options("--t-end 6.1"),
-         expected=WAVE),
+    Case("standing_wave", "standing_wave.yaml", {0.02: 0.5, 0.01: 3, 0.005: 20}, e.standing_wave, ("run.until=6.1 s",),
+         others={"imps.paper": ()}, expected=WAVE),
     Case("small_surge", "sloshing_high_fill", {0.02: 0.1, 0.01: 0.5, 0.005: 4}, e.small_surge, options("--amplitude 5e-4 --t-end 3"),
          others=()),
     Case("sloshing_high_fill", "sloshing_high_fill", {0.02: 0.2, 0.01: 1, 0.005: 6}, e.high_fill, expected=HIGH_FILL),
@@ -99,11 +108,11 @@ CASES = [
     Case("baffle_3d_counts", "sloshing_baffle_3d", {0.005: 3}, e.baffle_3d_counts, options("--paper-baffle --t-end 1e-5"), ("standard",), ()),
     Case("static_two_fluid", "static_two_fluid", {0.02: 2, 0.01: 15}, ph.static_two_fluid, others=TWO_PHASES),
     Case("rayleigh_taylor", "rayleigh_taylor", {0.025: 0.5, 0.0125: 3, 0.01: 6}, ph.rayleigh_taylor, others=TWO_PHASES),
-    Case("rising_bubble", "rising_bubble", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=TWO_PHASES),
-    Case("rising_bubble_2", "rising_bubble", {0.02: 2, 0.0125: 8}, ph.rising_bubble_2, options("--case 2"), ("standard", "fine"), ()),
-    Case("droplet", "droplet", {5e-4: 0.5, 3.5e-4: 1, 2.5e-4: 3}, ph.droplet, others=TWO_PHASES),
-    Case("droplet_oscillation", "droplet", {5e-4: 0.5, 3.5e-4: 1, 2.5e-4: 3}, ph.droplet_oscillation, options("--mode oscillation"), others=TWO_PHASES),
-    Case("air_cushion", "air_cushion", {0.02: 0.1, 0.01: 0.3, 0.005: 1}, ph.air_cushion, others=TWO_PHASES),
+    Case("rising_bubble", "rising_bubble.yaml", {0.025: 0.5, 0.02: 1, 0.0125: 4}, ph.rising_bubble, others=BUBBLE),
+    Case("rising_bubble_2", "rising_bubble_2.yaml", {0.02: 2, 0.0125: 8}, ph.rising_bubble_2, levels=("standard", "fine"), others=()),
+    Case("droplet", "droplet.yaml", {5e-4: 0.5, 3.5e-4: 1, 2.5e-4: 3}, ph.droplet, others=DROP),
+    Case("droplet_oscillation", "droplet_oscillation.yaml", {5e-4: 0.5, 3.5e-4: 1, 2.5e-4: 3}, ph.droplet_oscillation, others=DROP),
+    Case("air_cushion", "air_cushion.yaml", {0.02: 0.1, 0.01: 0.3, 0.005: 1}, ph.air_cushion, others=CUSHION),
     Case("high_fill_air", "sloshing_high_fill", {0.02: 1, 0.01: 5}, ph.high_fill_air, options("--model mmps"), others=("mmps.paper",)),
     Case("low_fill_air", "sloshing_low_fill", {0.00375: 40}, e.low_fill, options("--model mmps --pictures 2.75,4.8,6.1,7.85"), ("fine",), ()),
     Case("breaking_air", "sloshing_breaking", {0.02: 3, 0.01: 25, 0.005: 200}, ph.breaking_air, options("--model mmps --t-end 8 --pictures 2.2,2.3,2.4,2.5"),

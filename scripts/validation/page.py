@@ -70,8 +70,10 @@ def run_table(outcomes):
 def command_lines(outcomes):
     plain = [o for o in outcomes if o.run.cfl is None] or outcomes
     o = plain[0]
-    options = " ".join(o.run.options)
-    return f"`{o.run.driver}{' ' + options if options else ''} --dp {', '.join(f'{o.dp:g}' for o in plain)}`"
+    spacings = ", ".join(f"{o.dp:g}" for o in plain)
+    if o.run.of_mps:
+        return f"`mps run cases/{o.run.program}{''.join(f' --set {chr(34)}{value}{chr(34)}' for value in o.run.options)}`, dp {spacings} m"
+    return f"`{' '.join((o.run.program, *o.run.options))} --dp {spacings}`"
 
 
 def overview(results):
@@ -92,11 +94,11 @@ def others_table(outcomes):
     for o in outcomes:
         s = o.summary
         message = re.sub(r"\s+", " ", s["error"] or "").replace("|", "/")
-        name = f"`{o.run.driver}`" + (" (3-D)" if s.get("dim") == 3 else "")
+        name = f"`{o.run.program.removesuffix('.yaml')}`" + (" (3-D)" if s.get("dim") == 3 else "")
         rows.append([name, o.run.other_model, f"{o.dp:g}", f"{s['t_end']:.2f} s", "end" if o.complete else s["status"]])
         if message:
             messages.append((f"{name} with {o.run.other_model}", message))
-    return table(["driver", "model", "dp", "ran to", "status"], rows) + "\n\nMessages:\n\n" + items(messages) if rows else "Not run."
+    return table(["case", "model", "dp", "ran to", "status"], rows) + "\n\nMessages:\n\n" + items(messages) if rows else "Not run."
 
 
 class Page:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Run the drivers, several at a time, and keep what is there already."""
+"""Run the drivers and mps, several at a time, and keep what is there already."""
 import fcntl
 import hashlib
 import json
@@ -15,7 +15,8 @@ from results import Outcome
 
 USAGE, DIVERGED, INTERRUPTED = 2, 3, 130
 LONG = 5  # minutes, from which on a run leaves checkpoints
-CHECKPOINTS = ["--checkpoint", "0.1"]
+CHECKPOINTS = {False: ["--checkpoint", "0.1"], True: ["--set", "run.checkpoint=0.1 s"]}  # of a driver, of mps
+CASES = Path(__file__).resolve().parent.parent.parent / "cases"
 
 
 def say(text):
@@ -25,8 +26,8 @@ def say(text):
 class Runner:
     """Runs go into `out`/<name of the run>; run.json there is written last and says what was run."""
 
-    def __init__(self, examples, out, jobs, again):
-        self.examples, self.out, self.jobs, self.again = Path(examples), Path(out), jobs, again
+    def __init__(self, build, out, jobs, again):
+        self.build, self.out, self.jobs, self.again = Path(build), Path(out), jobs, again
         self.lock, self.done, self.stop = threading.Lock(), 0, False
         self.prints = {}
 
@@ -34,15 +35,26 @@ class Runner:
         return self.out / run.name
 
     def command(self, run):
-        return [run.driver, "--dp", f"{run.dp:g}", "--threads", "1", "--frames", "0", "--no-report", "--quiet", *run.options]
+        if run.of_mps:
+            values = (f"dp={run.dp:g} m", "output.frames=0", "output.page=0 MB", *run.options)
+            return ["mps", "run", f"cases/{run.program}", *(word for value in values for word in ("--set", value)), "-j", "1", "--quiet"]
+        return [run.program, "--dp", f"{run.dp:g}", "--threads", "1", "--frames", "0", "--no-report", "--quiet", *run.options]
 
-    def binary(self, driver):
-        """Fingerprint of a driver and of the library beside it; None without them."""
-        if driver not in self.prints:
-            path = self.examples / driver
-            files = [path, *sorted(self.examples.parent.glob("libmps.so.?"))]
-            self.prints[driver] = hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()[:16] if path.exists() else None
-        return self.prints[driver]
+    def path(self, program):
+        return self.build / ("apps/mps/mps" if program.endswith(".yaml") else f"examples/{program}")
+
+    def words(self, run):
+        """The command with the paths of its files."""
+        command = self.command(run)
+        return [str(self.path(run.program)), *(["run", str(CASES / run.program), *command[3:]] if run.of_mps else command[1:])]
+
+    def binary(self, program):
+        """Fingerprint of a driver, or of mps and a case, and of the library beside it; None without them."""
+        if program not in self.prints:
+            path, case = self.path(program), [CASES / program] if program.endswith(".yaml") else []
+            files = [path, *case, *sorted(self.build.glob("libmps*.so.?" if case else "libmps.so.?"))]
+            self.prints[program] = hashlib.sha256(b"".join(f.read_bytes() for f in files)).hexdigest()[:16] if path.exists() else None
+        return self.prints[program]
 
     def note(self, run):
         try:
@@ -53,7 +65,7 @@ class Runner:
     def fresh(self, run):
         """There is a result of the same command and the same program."""
         note = self.note(run)
-        return bool(note) and note["command"] == self.command(run) and note["binary"] == self.binary(run.driver)
+        return bool(note) and note["command"] == self.command(run) and note["binary"] == self.binary(run.program)
 
     def outcome(self, run):
         """What a run left, also an older one; None if there is nothing to read."""
@@ -65,7 +77,7 @@ class Runner:
         except (OSError, ValueError, KeyError) as error:
             say(f"{run.name}: cannot read its outputs: {error}")
             return None
-        outcome.current = self.binary(run.driver) in (None, note["binary"])
+        outcome.current = self.binary(run.program) in (None, note["binary"])
         return outcome
 
     def execute(self, run, count):
@@ -75,28 +87,28 @@ class Runner:
             self.done += 1
             say(f"[{self.done}/{count}] {run.name}: about {run.minutes:g} CPU minutes ...")
         folder = self.folder(run)
-        begin, command = time.monotonic(), self.command(run) + self.begin(run)
+        begin, command = time.monotonic(), self.words(run) + self.begin(run)
         with open(folder / "run.log", "w", encoding="utf-8") as log:
-            code = subprocess.call([str(self.examples / command[0]), *command[1:], "--out", str(folder)], stdout=log, stderr=log)
+            code = subprocess.call([*command, "--out", str(folder)], stdout=log, stderr=log)
         seconds = time.monotonic() - begin
         self.finish(run, code, seconds)
 
     def begin(self, run):
         """Make the folder of a run, or find it with a checkpoint of the same command and program. Returns the options for that."""
         folder = self.folder(run)
-        begun = {"command": self.command(run), "binary": self.binary(run.driver)}
+        begun = {"command": self.command(run), "binary": self.binary(run.program)}
         try:
             same = json.loads((folder / "begun.json").read_text()) == begun
         except (OSError, ValueError):
             same = False
         if same and (folder / "checkpoint.mps").exists() and not (folder / "run.json").exists():
             say(f"{run.name}: goes on from its checkpoint")
-            return [*CHECKPOINTS, "--resume"]
+            return [*CHECKPOINTS[run.of_mps], "--resume"]
         if folder.exists():
             shutil.rmtree(folder)
         folder.mkdir(parents=True)
         (folder / "begun.json").write_text(json.dumps(begun) + "\n")
-        return CHECKPOINTS if run.minutes >= LONG else []
+        return CHECKPOINTS[run.of_mps] if run.minutes >= LONG else []
 
     def finish(self, run, code, seconds):
         folder = self.folder(run)
@@ -107,7 +119,7 @@ class Runner:
             if code == USAGE:  # perhaps a checkpoint that does not fit its files: the next time from the beginning
                 (folder / "begun.json").unlink(missing_ok=True)
             return
-        note = {"command": self.command(run), "binary": self.binary(run.driver), "exit": code, "wall_s": round(seconds, 1),
+        note = {"command": self.command(run), "binary": self.binary(run.program), "exit": code, "wall_s": round(seconds, 1),
                 "when": time.strftime("%Y-%m-%d"), "message": " ".join(tail) if code else ""}
         (folder / "run.json").write_text(json.dumps(note, indent=1) + "\n")
         say(f"{run.name}: {'done' if code == 0 else 'diverged: ' + note['message']} after {seconds:.0f} s")

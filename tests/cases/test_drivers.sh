@@ -28,15 +28,15 @@ refused '--dp nan: must be' static_tank --dp nan
 refused '--dt 0: must be a number greater than 0, at most 0.1' sloshing_surge --dt 0
 refused '--dt is longer than --t-end' sloshing_surge --dt 0.1 --t-end 0.05
 refused '--cfl -1: must be' sloshing_surge --cfl -1
-refused '--t-end 1e9: must be' standing_wave --t-end 1e9
-refused '--threads 1.5: must be a whole number, 1 to 1024' standing_wave --threads 1.5
-refused '--frames -1: must be' standing_wave --frames -1
-refused '--checkpoint 1e-300: must be a number, 1e-06 to' standing_wave --checkpoint 1e-300
+refused '--t-end 1e9: must be' static_tank --t-end 1e9
+refused '--threads 1.5: must be a whole number, 1 to 1024' static_tank --threads 1.5
+refused '--frames -1: must be' static_tank --frames -1
+refused '--checkpoint 1e-300: must be a number, 1e-06 to' static_tank --checkpoint 1e-300
 refused '--dim 4: must be a whole number, 2 to 3' static_tank --dim 4
-refused 'unknown option --dim' standing_wave --dim 3
-refused 'unknown option --bogus' standing_wave --bogus
-refused '--dp needs a value' standing_wave --dp
-refused '--quiet takes no value' standing_wave --quiet=yes
+refused 'unknown option --dim' sloshing_surge --dim 3
+refused 'unknown option --bogus' static_tank --bogus
+refused '--dp needs a value' static_tank --dp
+refused '--quiet takes no value' static_tank --quiet=yes
 refused 'unknown option --amplitude' static_tank --amplitude 0.1
 refused '--amplitude 0: must be a number greater than 0' sloshing_high_fill --amplitude 0
 refused '--layers -1: must be a whole number, 0 to 100' sloshing_baffle_2d --layers -1
@@ -58,33 +58,29 @@ refused '--re-far 1.5: must be a number, 2.1 to 10' static_tank --re-far 1.5
 refused '--model magic: no preset "magic"; there are "imps", "imps.paper", "mmps", "mmps.paper"' static_tank --model magic
 refused '--model mmps: is for two phases, this case has one; there are imps, imps.paper' static_tank --model mmps
 refused '--model mmps.paper: is for two phases' dam_break --model mmps.paper
-refused '--sigma -1: must be a number not less than 0, at most 100' droplet --sigma -1
+refused '--sigma -1: must be a number not less than 0, at most 100' static_two_fluid --sigma -1
 refused '--sigma with --model imps: has no surface tension' sloshing_high_fill --model imps --sigma 0.01
 refused 'unknown option --sigma' rayleigh_taylor --sigma 0
-refused '--mode jump: must be one of rest|oscillation' droplet --mode jump
-refused '--mode res: must be one of rest|oscillation' droplet --mode res
-refused '--case 3: must be one of 1|2' rising_bubble --case 3
+refused '--case fla: must be one of flat|film|wedge|jet|column|floor|box|toe' impact --case fla
 refused '--case dam: must be one of flat|film|wedge|jet|column|floor|box|toe' impact --case dam
 refused '--rows 0: must be a whole number, 1 to 200' impact --case film --rows 0
 refused '--dim 3: this case is for 2 dimensions' impact --case wedge --dim 3
 refused '--tip thin: must be one of flat|wedge|round' impact --case toe --tip thin
 refused '--shift 2: must be a number not less than 0, at most 1' impact --case toe --shift 2
-refused '--liquid honey: must be one of water|oil' sloshing_roll --liquid honey
-refused '--angle 0: must be a number, 0.01 to 20' sloshing_roll --angle 0
 refused '--width 0: must be a number, 0.01 to 2' sloshing_breaking --dim 3 --width 0
 refused "there are 'sundials.pcg'" static_tank --solver magic
-refused "'sundials.klu', 'sundials.kinsol'; a preconditioner stands behind a /" air_cushion --solver magic
+refused "'sundials.klu', 'sundials.kinsol'; a preconditioner stands behind a /" static_two_fluid --solver magic
 for option in --model --solver; do # choices are listed once
     "$drivers/static_tank" $option magic >log 2>&1
     [ "$(grep -o 'there are' log | wc -l)" = 1 ] || fail "$option magic: $(cat log)"
 done
-refused "choose 'sundials.kinsol'" air_cushion --dp 0.04 --use gas.isentropic --frames 0 --no-report --out nonlinear
-refused 'phase 3 has no fluid particle: add the gas, or set gas.phase' air_cushion --dp 0.04 --set gas.phase=3 --frames 0 --no-report --out no_gas
-refused 'gas.phase is 1.5: must be a whole number' air_cushion --dp 0.04 --set gas.phase=1.5 --frames 0 --no-report --out no_gas
+refused "choose 'sundials.kinsol'" sloshing_high_fill --model mmps --dp 0.04 --use gas.isentropic --frames 0 --no-report --out nonlinear
+refused 'phase 3 has no fluid particle: add the gas, or set gas.phase' sloshing_high_fill --model mmps --dp 0.04 --set gas.phase=3 --frames 0 --no-report --out no_gas
+refused 'gas.phase is 1.5: must be a whole number' sloshing_high_fill --model mmps --dp 0.04 --set gas.phase=1.5 --frames 0 --no-report --out no_gas
 refused '--out /dev/null/x: Not a directory' static_tank --out /dev/null/x
 
 "$drivers/static_tank" --help | grep -q -- '--probe-dt S' || fail "--help does not list --probe-dt"
-"$drivers/droplet" --help | grep -q -- '--mode rest|oscillation .* (rest)' || fail "--help does not list --mode with its default"
+"$drivers/impact" --help | grep -q -- '--tip flat|wedge|round .* (flat)' || fail "--help does not list --tip with its default"
 "$drivers/static_tank" --version | grep -q 'libmps [0-9]' || fail "--version"
 
 # --list-models: all models of the library with their settings, and all else that has a name
@@ -97,7 +93,7 @@ done
 for name in imps.paper mmps.paper sundials.kinsol auxgrid improved restitution acceleration interface_distance; do
     grep -qF "\`$name\`" list || fail "--list-models does not name $name"
 done
-"$drivers/droplet" --list-models | cmp -s - list || fail "--list-models of two drivers differ"
+"$drivers/rayleigh_taylor" --list-models | cmp -s - list || fail "--list-models of two drivers differ"
 
 # --profile: a line for each pass on stdout, and their sum, which is the time of the steps
 "$drivers/static_tank" --dp 0.05 --t-end 0.02 --frames 0 --no-report --quiet --profile --out profile --threads 1 >table 2>log || fail "--profile: exit $?: $(cat log)"
@@ -129,20 +125,14 @@ columns sloshing_surge 0.025 310 't[s],surge[m],P1[Pa],P2[Pa],P3[Pa],P4[Pa],P5[P
 columns sloshing_high_fill 0.025 276 't[s],surge[m],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_low_fill 0.015 78 't[s],surge[m],P1[Pa],eta_right[m],ke[J/m],x_tank[m]'
 columns sloshing_breaking 0.025 367 't[s],surge[m],P1[Pa],P2[Pa],P3[Pa],eta_left[m],eta_right[m],air_volume[m2],ke[J/m],x_tank[m]'
-columns sloshing_roll 0.031 82 't[s],roll[deg],P_left[Pa],P_right[Pa],eta_left[m],eta_quarter[m],eta_right[m],angle[deg],ke[J/m],x_tank[m]'
 columns sloshing_baffle_2d 0.01 978 't[s],surge[m],eta_a[m],eta_b[m],eta_c[m],ke[J/m],x_tank[m]'
 columns sloshing_baffle_3d 0.025 1859 't[s],surge[m],eta_a[m],eta_b[m],eta_c[m],ke[J],x_tank[m]'
 columns dam_break 0.025 286 't[s],P1[Pa],P2[Pa],P3[Pa],P4[Pa],front[m],ke[J/m],x_tank[m]'
 columns static_tank 0.025 616 't[s],P1[Pa],P2[Pa],P3[Pa],eta_left[m],ke[J],x_tank[m]' --dim 3
-columns standing_wave 0.025 780 't[s],eta_left[m],x_centre[m],ke[J/m],x_tank[m]'
 columns impact 0.05 800 't[s],P_10[Pa],P_25[Pa],P_50[Pa],P_75[Pa],P_bottom[Pa],P_mean[Pa],F[N/m],ke[J/m],x_tank[m]' --probe-dt 1e-3
 has impact trace.csv
 columns static_two_fluid 0.05 570 't[s],P1[Pa],P2[Pa],P3[Pa],ke[J/m],x_tank[m],pe[J/m]'
 columns rayleigh_taylor 0.05 760 't[s],ytop[m],ybot[m],ke[J/m],x_tank[m],pe[J/m]'
-columns rising_bubble 0.05 741 't[s],yc[m],v[m/s],circularity,ke[J/m],x_tank[m],pe[J/m]'
-columns droplet 0.001 361 't[s],dp[Pa],rx[m],ke[J/m],x_tank[m],pe[J/m]'
-columns air_cushion 0.02 931 't[s],x_slug[m],ke[J/m],x_tank[m],pe[J/m]'
-columns cylinder_tank 0.05 524 't[s],surge[m],P_bottom[Pa],eta_middle[m],eta_left[m],F_x[N],F_y[N],ke[J],x_tank[m]'
 awk -F, 'NR == 2 && $2 > 0 {found = 1} END {exit !found}' static_tank/probes.csv || fail "static_tank/probes.csv has no pressure in the row of t = 0"
 
 # what the drivers of two phases begin with and end with
@@ -154,32 +144,13 @@ value_is() { # folder, column, row (1: t = 0), value, tolerance
 }
 value_is rayleigh_taylor ytop 1 1.15 0.026
 value_is rayleigh_taylor ybot 1 0.85 0.026
-value_is rising_bubble yc 1 0.5 0.02
-value_is rising_bubble circularity 1 1 0.03
-value_is droplet rx 1 0.005 2e-4
-value_is sloshing_roll angle 1 0 0
-value_is air_cushion x_slug 1 0 0
 awk -F, 'END {exit !(($2 - $4 - 4905) ^ 2 < 250 ^ 2)}' static_two_fluid/probes.csv || fail "static_two_fluid: P1 - P3 is not rho g 0.5 m"
 grep -q '"trespass": -0.0' static_two_fluid/summary.json || fail "static_two_fluid has $(grep trespass static_two_fluid/summary.json)"
 grep -q '"strays": 0,' rayleigh_taylor/summary.json || fail "rayleigh_taylor has $(grep strays rayleigh_taylor/summary.json)"
-runs 0 droplet --mode oscillation --dp 0.001 --t-end 0.02 --frames 0 --out moving
-cmp -s moving/probes.csv droplet/probes.csv && fail "--mode oscillation changes nothing"
-runs 0 droplet --mode oscillation --sigma 0 --dp 0.001 --t-end 0.002 --frames 0 --out free
-value_is free ke 1 0 0
-runs 0 sloshing_roll --liquid water --dp 0.031 --t-end 0.02 --frames 0 --out roll_water
-cmp -s roll_water/probes.csv sloshing_roll/probes.csv && fail "--liquid water changes nothing"
-runs 0 sloshing_roll --ramp 0 --angle 2 --dp 0.031 --t-end 0.02 --frames 0 --out roll_jump
-value_is roll_jump angle 21 0.154081 1e-6 # 2 sin(2 pi 0.02/1.62953)
 runs 0 sloshing_surge --ramp 1 --dp 0.05 --t-end 0.1 --frames 0 --out surge_ramp
 value_is surge_ramp x_tank 101 1.12077e-4 1e-9 # 0.02 sin(6.469 t) x^3 (10 - 15 x + 6 x^2), x = 6.469 t/(2 pi)
-runs 0 rising_bubble --case 2 --dp 0.05 --t-end 0.02 --frames 0 --out bubble2
-cmp -s bubble2/probes.csv rising_bubble/probes.csv && fail "--case 2 changes nothing"
-
-runs 0 droplet --model mmps.paper --dp 0.001 --t-end 0.002 --frames 0 --out drop_paper # without gravity nothing is uppermost
 runs 0 rayleigh_taylor --model mmps.paper --dp 0.05 --t-end 1 --frames 0 --out two_liquids # p = 0 atop the lower of two liquids breaks off at 0.83 s
-# a model for one phase gets the models that a case of two phases needs: surface tension, a pressure
-# datum
-runs 0 droplet --model imps --dp 0.001 --t-end 0.002 --sigma 0.01 --frames 0 --out drop_one
+# a model for one phase gets the model that a case of two phases needs: a pressure datum
 runs 0 static_two_fluid --model imps --dp 0.05 --t-end 0.05 --frames 0 --out level
 awk -F, 'END {exit !(($3 - 2460) ^ 2 < 250 ^ 2)}' level/probes.csv || fail "static_two_fluid --model imps: P2 is not rho g 0.25 m"
 
@@ -228,28 +199,6 @@ if cmp -s other/probes.csv sloshing_high_fill/probes.csv; then fail "--use and -
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --remove dissipation --out fewer
 if cmp -s fewer/probes.csv sloshing_high_fill/probes.csv; then fail "--remove changes nothing"; fi
 
-# a tank from a file: a box of 600 x 400 x 300 mm, two triangles a face
-awk 'BEGIN {
-    split("0 0 0 600 0 0 600 400 0 0 400 0 0 0 300 600 0 300 600 400 300 0 400 300", c)
-    split("1432 5678 1265 3487 2376 1584", face)
-    print "solid box"
-    for (f = 1; f <= 6; f++)
-        for (h = 0; h < 2; h++) {
-            print "facet normal 0 0 0\nouter loop"
-            for (k = 1; k <= 3; k++) {
-                v = substr(face[f], k == 1 ? 1 : k + h, 1)
-                print "vertex", c[3 * v - 2], c[3 * v - 1], c[3 * v]
-            }
-            print "endloop\nendfacet"
-        }
-    print "endsolid box"
-}' >box.stl
-runs 0 cylinder_tank --stl box.stl --stl-scale 0.001 --dp 0.05 --t-end 0.02 --frames 0 --out box
-grep -q '"n_fluid": 220,' box/summary.json || fail "the box from a file has $(grep n_fluid box/summary.json) instead of 220 = 11 x 4 x 5"
-head -8 box.stl >torn.stl
-runs 2 cylinder_tank --stl torn.stl --dp 0.05 --t-end 0.02 --out torn
-grep -q 'torn.stl' log || fail "a torn file is not named: $(cat log)"
-
 # a sensor's average is smoother than the signal
 runs 0 sloshing_high_fill --dp 0.025 --t-end 0.02 --frames 0 --sensor-average 0.005 --out averaged
 if cmp -s averaged/probes.csv sloshing_high_fill/probes.csv; then fail "--sensor-average changes nothing"; fi
@@ -270,8 +219,7 @@ grep -qF '"liquid_depth": 0.25,' sloshing_surge/summary.json || fail "sloshing_s
 for text in 'P1 \[Pa\]</th><td>Wall pressure: sensor at (0, 0.05) m' 'inner size of the tank</th><td>0.8 x 0.5 m' 'id="film-data"' '"label": "crests, FNPF"'; do
     grep -q "$text" sloshing_surge/report.html || fail "sloshing_surge/report.html has no $text"
 done
-grep -q '"about": "Half axis of the drop along x' droplet/report.html || fail "droplet: the page does not say what the radius is"
-for folder in sloshing_surge impact droplet dam_break; do # each column is in the list
+for folder in sloshing_surge impact rayleigh_taylor dam_break; do # each column is in the list
     for name in $(head -1 $folder/probes.csv | tr , '\n' | sed 's/\[.*//' | grep -vx t); do
         grep -q "{\"name\": \"$name\", .*\"about\": \"..*\"}" $folder/summary.json || fail "$folder/summary.json says nothing about $name"
     done

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Side walls in 2-D (friction.history) against the same tank in 3-D, where they have particles: a
- * shallow liquid in a thin tank that rolls, as in the driver sloshing_roll, at its spacing. The
+ * shallow liquid in a thin tank that rolls, as in the case sloshing_roll, at its spacing. The
  * liquid is 500 times as viscous as water, so that the layers, a quarter of the width, are two
  * spacings thick and 3-D resolves them. */
 #include <math.h>

@@ -88,7 +88,7 @@ static void at_rest(void **state)
 
 /* ---- a standing wave ---- */
 
-/* As in the driver standing_wave: lattice points moved as linear theory does, amplitude a. */
+/* As in the case standing_wave: lattice points moved as linear theory does, amplitude a. */
 static double add_wave(mps_sim *sim, const double *size, double depth, double a)
 {
     double h[2];

@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
-# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air; an interrupted run
-# resumes with another number of ranks; a refusal is printed once. 77: MPI cannot start ranks.
-# usage: tests/mpi/test_program.sh FOLDER_OF_MPS MPIRUN CASES
+# mps run CASE --mpi: the same bytes as on one process, in 2-D, 3-D and with air, and of each case
+# without a driver; an interrupted run resumes with another number of ranks; a refusal is printed
+# once. 77: MPI cannot start ranks. With "all" each case runs on 2 to 5 ranks.
+# usage: tests/mpi/test_program.sh FOLDER_OF_MPS MPIRUN CASES [all]
 export LC_ALL=C # awk, printf and sort take numbers with a point
 set -uo pipefail
 cases=$(realpath "$3")
@@ -20,23 +21,40 @@ says() { # what, text: once
 }
 
 for start in tank lng; do "$mps" init $start >/dev/null; done
-while read -r name case options; do
+tested=
+while read -r name counts case options; do
+    tested+=" $case "
+    [ "${4:-}" != all ] || counts=2,3,4,5
     read -ra options <<<"$options"
     case=${case/CASES/$cases} set=(-q -j 1)
     for option in "${options[@]}"; do set+=(--set "${option/\~/ }"); done
     runs 0 mps run "$case" "${set[@]}" -o "$name.1"
     [ "$(wc -l <"$name.1/probes.csv")" -gt 5 ] || fail "$name: $(wc -l "$name.1/probes.csv")"
-    for n in 2 3; do
+    for n in ${counts//,/ }; do
         on 0 $n run "$case" "${set[@]}" -o "$name.$n"
         same "$name.1" "$name.$n"
         grep -q "\"ranks\": $n" "$name.$n/summary.json" || fail "$name.$n/summary.json does not tell its ranks"
     done
     [ "$(find "$name.1/frames" -name '*.vtp' | wc -l)" -ge 2 ] || fail "$name: no frames are compared"
 done <<'CASES'
-tank tank.yaml dp=30~mm run.until=0.2~s output.frames=2 run.checkpoint=0.1~s
-baffle_3d CASES/sloshing_baffle_3d.yaml dp=25~mm run.until=0.02~s output.frames=1
-lng_air lng.yaml dp=20~mm run.until=0.03~s output.frames=1
+tank 2,3 tank.yaml dp=30~mm run.until=0.2~s output.frames=2 run.checkpoint=0.1~s
+baffle_3d 2,3 CASES/sloshing_baffle_3d.yaml dp=25~mm run.until=0.02~s output.frames=1
+lng_air 2,3 lng.yaml dp=20~mm run.until=0.03~s output.frames=1
+roll 4 CASES/sloshing_roll.yaml dp=15.5~mm run.until=0.05~s output.frames=1 run.checkpoint=0.05~s
+roll_3d 5 CASES/sloshing_roll.yaml dim=3 dp=15.5~mm run.until=0.02~s output.frames=1
+wave 2 CASES/standing_wave.yaml dp=40~mm run.until=0.1~s output.frames=1
+cylinder 3 CASES/cylinder_tank.yaml dp=50~mm run.until=0.05~s output.frames=1
+bubble 4 CASES/rising_bubble.yaml dp=50~mm run.until=0.05~s output.frames=1
+bubble_2 5 CASES/rising_bubble_2.yaml dp=50~mm run.until=0.05~s output.frames=1
+droplet 2 CASES/droplet.yaml dp=1~mm run.until=0.01~s output.frames=1
+oscillation 3 CASES/droplet_oscillation.yaml dp=1~mm run.until=0.01~s output.frames=1
+cushion 4 CASES/air_cushion.yaml dp=30~mm run.until=0.01~s output.frames=1
 CASES
+for case in "$cases"/*.yaml; do # ranks/body has bodies
+    name=$(basename "$case" .yaml)
+    [ -e "$here/../../examples/$name.c" ] || grep -q '^body:' "$case" || [[ $tested == *" CASES/$name.yaml "* ]] ||
+        fail "$name has no driver and is not tested on ranks"
+done
 
 # frames in pieces
 on 0 2 run tank.yaml --set "dp=30 mm" --set "run.until=0.05 s" --set output.frames=1 --set output.pieces=yes -q -o pieces

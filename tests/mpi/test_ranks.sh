@@ -30,19 +30,12 @@ high_fill_air sloshing_high_fill --model mmps --dp 0.05 --t-end 0.02
 low_fill sloshing_low_fill --dp 0.015 --t-end 0.05
 breaking_air sloshing_breaking --model mmps --dp 0.03 --t-end 0.03 --checkpoint 0.03
 breaking_3d sloshing_breaking --dim 3 --dp 0.03 --width 0.12 --t-end 0.02
-roll sloshing_roll --dp 0.0155 --t-end 0.05 --checkpoint 0.05
-roll_3d sloshing_roll --dim 3 --dp 0.0155 --t-end 0.02
 baffle_2d sloshing_baffle_2d --dp 0.02 --t-end 0.05
 baffle_3d sloshing_baffle_3d --dp 0.025 --t-end 0.02
 static static_tank --dp 0.03 --t-end 0.1
 static_3d static_tank --dim 3 --dp 0.05 --t-end 0.05
-wave standing_wave --dp 0.04 --t-end 0.1
-cylinder cylinder_tank --dp 0.05 --t-end 0.05
 two_fluid static_two_fluid --dp 0.05 --t-end 0.05
 taylor rayleigh_taylor --dp 0.05 --t-end 0.05
-bubble rising_bubble --dp 0.05 --t-end 0.05
-droplet droplet --dp 0.001 --t-end 0.01
-cushion air_cushion --dp 0.03 --t-end 0.01
 flat impact --case flat --dp 0.05 --probe-dt 1e-3
 flat_3d impact --case flat --dim 3 --dp 0.1 --t-end 0.06 --cfl 0.1 --probe-dt 1e-3
 film impact --case film --dp 0.05 --checkpoint 1

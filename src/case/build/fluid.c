@@ -94,6 +94,19 @@ int32_t mps__build_phase(build *b, const tree_node *at, const char *name)
     return phase;
 }
 
+/* Whether 'use' adds a model that imps lacks for several fluids: the case compares imps with
+ * mmps. */
+static bool adds_for_several(const build *b)
+{
+    static const char *const slot[] = {"tension.", "gas.", "reference."};
+    const tree_node *use = mps__tree_find(b->root, "use"),
+                    *at = use && use->kind == TREE_LIST ? use->first : use;
+    for (; at; at = at == use ? NULL : at->next)
+        for (size_t i = 0; i < sizeof slot / sizeof *slot; i++)
+            if (strncmp(at->text, slot[i], strlen(slot[i])) == 0) return true;
+    return false;
+}
+
 void mps__build_fluids_read(build *b)
 {
     const tree_node *fill = mps__tree_find(b->root, "fill"); /* with at least one fluid */
@@ -117,9 +130,10 @@ void mps__build_fluids_read(build *b)
                       "model: '%s' is for several fluids that fill the tank together; add "
                       "'- air: rest' to fill, or take imps",
                       b->model);
-    if (!b->several && b->fluids > 1)
+    if (!b->several && b->fluids > 1 && !adds_for_several(b))
         mps__case_say(b->c, model, false,
-                      "model: '%s' is for one liquid, %d are filled in; mmps is for several",
+                      "model: '%s' is for one liquid, %d are filled in; mmps is for several; to "
+                      "compare both, add 'use: reference.lid' or 'use: tension.csf'",
                       b->model, (int)b->fluids);
 }
 
