@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Values of the summary.json of a run, which writes a line for each of its own. */
+/* Values of the summary.json of a run. */
 #ifndef MPS_APPS_SUMMARY_H
 #define MPS_APPS_SUMMARY_H
 
@@ -9,13 +9,17 @@
 
 enum { SUMMARY_TEXT = 240 };
 
+/* An input of the case of a run. */
+typedef struct summary_input {
+    char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
+} summary_input;
+
 /* A text. @return false: the folder has no summary.json, or the text is missing */
 bool summary_text(const char *folder, const char *key, char out[SUMMARY_TEXT]);
 /* A number; also nan. */
 double summary_number(const char *folder, const char *key);
-/* Input number `index` of the case. @return false: there is none */
-bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
-                   char value[SUMMARY_TEXT]);
+/* Inputs of the case, malloc'd. @return their number; -1: out of memory */
+int32_t summary_inputs(const char *folder, summary_input **inputs);
 /* The first natural period, an input of the summary [s]; nan: it is not known. */
 double summary_T1(const char *folder);
 /* The run reached its end. */

@@ -39,9 +39,11 @@ typedef struct mps__csv {
 
 /* Open a file and read its names. Free the table in any case. */
 mps__csv_error mps__csv_open(mps__csv *t, const char *path, int32_t flags);
-/* Likewise of a file of the folder of a run: a link out of it is CSV_FILE. @param folder  NULL: a file anywhere */
+/* Open a file in the folder of a run: a link out of the folder is CSV_FILE.
+ * @param folder  NULL: a file anywhere */
 mps__csv_error mps__csv_open_in(mps__csv *t, const char *folder, const char *path, int32_t flags);
-/* Read the columns that are wanted; in the others any text is allowed. */
+/* Read the columns that are wanted, and close the file. In the other columns any text is
+ * allowed. */
 mps__csv_error mps__csv_read(mps__csv *t);
 void mps__csv_free(mps__csv *t);
 

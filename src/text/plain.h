@@ -36,14 +36,6 @@ int mps__is_blank(int c);
 /* As strcasecmp(): 'I' and 'i' are one letter, in Turkish too. */
 int mps__compare_letters(const char *a, const char *b, size_t most);
 
-/* Bytes of the character of UTF-8 at `text`; 0: there is none, as at a byte of Latin-1. */
-size_t mps__character(const char *text);
-/* What a text of JSON has for the first character of `text`, '<' escaped too, so that no
- * "</script>" ends an element of a page. Bytes that are no UTF-8, as of the name of a file,
- * become U+FFFD.
- * @return bytes of `text`, 1 or more */
-size_t mps__json_character(const char *text, char out[8]);
-
 #undef vsnprintf
 #undef snprintf
 #undef vfprintf

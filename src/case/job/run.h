@@ -111,7 +111,7 @@ struct mps_job {
     table probes, steps, momentum, trace_rows;
     double *
         all_rows; /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step, with dt = 0 */
-    int64_t all_count, all_room;
+    int64_t all_count;
     bool all_failed;
     mps_frames *frames;
     int64_t frame;           /* next frame */
@@ -155,8 +155,6 @@ void mps__job_show(mps_job *job, int32_t kind, const char *text);
 void mps__job_tell(mps_job *job, const char *format, ...);
 /* Remember the first thing that went wrong besides stepping. @return false if it did */
 bool mps__job_note(mps_job *job, mps_status status, const char *what);
-/* `array` with room for one element behind `count` of them, or NULL. */
-void *mps__job_grown(void *array, int count, size_t size);
 /* A copy, or NULL; also of NULL. */
 char *mps__job_copy(const char *text);
 
@@ -199,6 +197,8 @@ double mps__job_depth(const mps_job *job);
 void mps__job_measure(mps_job *job, double *values);
 /* Open all tables, or go on with them from the checkpoint. @return false: it failed */
 bool mps__job_open_tables(mps_job *job);
+/* Open a table, or continue with its rows. @return false: the job has failed */
+bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *header, int columns);
 /* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
 void mps__job_first_rows(mps_job *job);
 /* A row at t. */
@@ -210,6 +210,8 @@ void mps__job_write_start(mps_job *job, const double *first);
 
 /* Open trace.csv or go on with it, if there is to be one. @return false: it failed */
 bool mps__trace_open(mps_job *job);
+/* A table_row_fn for trace.csv: keep a row in memory. */
+void mps__trace_keep(void *job, const double *row);
 /* Take a row of it. */
 void mps__trace_step(mps_job *job, double t, double dt);
 
@@ -266,6 +268,8 @@ void mps__drawing_end(mps_job *job, mps_status status);
 const table *mps__job_failed_table(const mps_job *job);
 /* All that comes after the last step. @param wall_s,cpu_s  times up to it [s] @return exit code */
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
+/* Largest memory of this process so far [bytes]; NAN: not known. */
+double mps__job_peak_memory(void);
 /* summary.json; before totals.status is set, that of a run that is unfinished. @return false: it could not be written, job->error says why */
 bool mps__summary_save(mps_job *job);
 /* report.html, if it is wanted. @return false: likewise */
