@@ -430,8 +430,8 @@ mps__csv_error mps__csv_read(mps__csv *t)
 void mps__csv_free(mps__csv *t)
 {
     for (int32_t k = 0; k < t->columns; k++) {
-        if (t->name) free(t->name[k]); /* the caller may have taken them */
-        if (t->unit) free(t->unit[k]);
+        free(t->name[k]);
+        free(t->unit[k]);
         free(t->value[k]);
     }
     free((void *)t->name);
