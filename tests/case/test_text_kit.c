@@ -17,7 +17,7 @@ static void distances(void **state)
         size_t edits;
     } pairs[] = {
         {"", "", 0},          {"roll", "roll", 0},      {"", "roll", 4},     {"rol", "roll", 1},
-        {"rolll", "roll", 1}, {"roll", "rool", 1},      {"rlol", "roll", 1}, {"lrlo", "roll", 2},
+        {"rolll", "roll", 1}, {"roll", "rool", 1},      {"rlol", "roll", 1}, {"lrlo", "roll", 3},
         {"surge", "sway", 4}, {"gravtiy", "gravity", 1}};
     char longer[80] = "", most[65] = "";
     (void)state;
