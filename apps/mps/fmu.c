@@ -2,6 +2,7 @@
 /* mps fmu: exports a case as an FMU, which programs with bodies import. */
 #include "fmu.h"
 #include "cli.h"
+#include "run_file.h"
 #include "zip.h"
 #include <ctype.h>
 #include <errno.h>
@@ -27,16 +28,9 @@ static int refuse(const choices *c, int code, const char *what, const char *why)
  * not found */
 static FILE *open_module(char *path, size_t size)
 {
-    static const char *const places[] = {"", MODULE_FOLDER};
-    char from[PATH_SIZE];
-    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
-    while (length > 0 && from[length - 1] != '/') length--;
-    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
-        snprintf(path, size, "%.*s%slibmps_fmu.so", (int)length, from, places[k]);
-        FILE *file = fopen(path, "rb");
-        if (file) return file;
-    }
-    snprintf(path, size, "libmps_fmu.so");
+    static const char name[] = "libmps_fmu.so";
+    if (mps__program_file(name, MODULE_FOLDER, path, size)) return fopen(path, "rb");
+    snprintf(path, size, "%s", name);
     errno = ENOENT;
     return NULL;
 }
@@ -44,16 +38,11 @@ static FILE *open_module(char *path, size_t size)
 /* Read a whole file, and close it. @return false: errno, 0: it is empty */
 static bool read_part(part *p, FILE *file)
 {
-    errno = 0;
-    fseek(file, 0, SEEK_END); /* on failure the position is 0, as in an empty file */
-    const long size = ftell(file);
-    rewind(file);
-    p->data = size > 0 ? malloc((size_t)size) : NULL;
-    p->size = p->data ? fread(p->data, 1, (size_t)size, file) : 0;
-    const int why = errno;
+    p->data = mps__file_read(file, SIZE_MAX, &p->size);
+    const int why = p->data ? 0 : errno;
     fclose(file);
     errno = why;
-    return size > 0 && p->size == (size_t)size;
+    return p->data && p->size > 0;
 }
 
 static bool write_part(part *p, void (*write)(FILE *, const fmu_about *), const fmu_about *a)

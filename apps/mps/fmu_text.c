@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Descriptions in an FMU: variables for importers, a page for users. */
 #include "fmu.h"
+#include "escape.h"
 #include <mps/mps.h>
 #include <string.h>
 
@@ -15,17 +16,7 @@ static const struct {
 
 static void put_text(FILE *out, const char *text)
 {
-    for (; *text; text++) {
-        const char *name = *text == '&'   ? "&amp;"
-                           : *text == '<' ? "&lt;"
-                           : *text == '>' ? "&gt;"
-                           : *text == '"' ? "&quot;"
-                                          : NULL;
-        if (name)
-            fputs(name, out);
-        else
-            fputc((unsigned char)*text < ' ' ? ' ' : *text, out);
-    }
+    mps__put_escaped(out, text, mps__xml_character);
 }
 
 static void put_power(FILE *out, const char *name, int power)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps collect: one table of the runs in folders, with the inputs that differ between them. */
 #include "collect.h"
+#include "grow.h"
 #include "plan.h"
 #include "summary.h"
 #include <errno.h>
@@ -14,15 +15,10 @@
 
 enum { RUNS_MOST = 100000, UNIT_SIZE = 16, VARIED_MOST = 64 };
 
-/* An input of a run. */
-typedef struct input {
-    char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
-} input;
-
 typedef struct gathered_run {
     char *folder;
     int32_t inputs;
-    input *input;
+    summary_input *input;
 } gathered_run;
 
 typedef struct gathering {
@@ -46,7 +42,7 @@ static bool has_summary(const char *folder)
 
 static bool add_run(gathering *g, const char *folder)
 {
-    gathered_run *grown = realloc(g->run, ((size_t)g->runs + 1) * sizeof *grown);
+    gathered_run *grown = mps__grown(g->run, g->runs, sizeof *grown);
     char *copy = malloc(strlen(folder) + 1);
     if (grown) g->run = grown;
     if (!grown || !copy || g->runs == RUNS_MOST) {
@@ -132,15 +128,8 @@ static bool find_varied(gathering *g)
 {
     for (int32_t i = 0; i < g->runs; i++) {
         gathered_run *r = &g->run[i];
-        char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
-        for (int32_t k = 0; summary_input(r->folder, k, key, value); k++) {
-            input *grown = realloc(r->input, ((size_t)k + 1) * sizeof *grown);
-            if (!grown) return false;
-            r->input = grown;
-            snprintf(grown[k].key, SUMMARY_TEXT, "%s", key);
-            snprintf(grown[k].value, SUMMARY_TEXT, "%s", value);
-            r->inputs++;
-        }
+        r->inputs = summary_inputs(r->folder, &r->input);
+        if (r->inputs < 0) return false;
     }
     for (int32_t i = 0; i < g->runs; i++)
         for (int32_t k = 0; k < g->run[i].inputs; k++) {

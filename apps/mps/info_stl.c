@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* mps info for a surface of triangles: its position, and whether it is closed. */
+/* mps info of a surface of triangles: where it is, and whether it is closed. */
+#include "grow.h"
 #include "info.h"
 #include <ctype.h>
 #include <math.h>
@@ -12,21 +13,17 @@ enum { BINARY_HEAD = 84, RECORD = 50 };
 
 /* Corners of the triangles, three numbers each. */
 typedef struct surface {
-    int64_t corners, room;
+    int64_t corners;
     float *x;
     bool no_memory;
 } surface;
 
 static void add_corner(surface *s, const float x[3])
 {
-    if (s->corners == s->room) {
-        const int64_t room = s->room > 0 ? 2 * s->room : 3072;
-        float *grown = realloc(s->x, (size_t)(3 * room) * sizeof *grown);
-        s->no_memory = s->no_memory || !grown;
-        if (!grown) return;
-        s->x = grown;
-        s->room = room;
-    }
+    float *grown = mps__grown(s->x, s->corners, 3 * sizeof *grown);
+    s->no_memory = s->no_memory || !grown;
+    if (!grown) return;
+    s->x = grown;
     for (int d = 0; d < 3; d++) s->x[3 * s->corners + d] = x[d] + 0.0f; /* -0 is 0 */
     s->corners++;
 }

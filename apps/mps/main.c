@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps: simulates tanks, liquids and motions from case files. */
 #include "cli.h"
-#include "record.h"
+#include "words.h"
 #include <fcntl.h>
 #include <mps/mps.h>
 #include <signal.h>
@@ -39,7 +39,7 @@ static void refuse_verb(const char *name)
     const char *best = NULL;
     size_t least = strlen(name) > 3 ? 3 : 2;
     for (int i = 0; i < cli_verb_count; i++) {
-        const size_t letters = record_distance(name, cli_verbs[i].name);
+        const size_t letters = mps__word_distance(name, cli_verbs[i].name);
         if (letters >= least) continue;
         least = letters;
         best = cli_verbs[i].name;

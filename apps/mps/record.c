@@ -1,12 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "record.h"
+#include "words.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-
-enum { WORD_ROOM = 64 };
 
 bool record_path(const char *folder, const char *name, char *out, size_t size)
 {
@@ -56,32 +55,13 @@ int32_t record_find(const record *r, const char *name)
     return -1;
 }
 
-size_t record_distance(const char *a, const char *b)
-{
-    size_t row[WORD_ROOM + 1];
-    const size_t la = strnlen(a, WORD_ROOM), lb = strnlen(b, WORD_ROOM);
-    for (size_t j = 0; j <= lb; j++) row[j] = j;
-    for (size_t i = 1; i <= la; i++) {
-        size_t corner = row[0];
-        row[0] = i;
-        for (size_t j = 1; j <= lb; j++) {
-            size_t best = corner + (a[i - 1] != b[j - 1]);
-            if (row[j] + 1 < best) best = row[j] + 1;
-            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
-            corner = row[j];
-            row[j] = best;
-        }
-    }
-    return row[lb];
-}
-
 const char *record_nearest(const record *r, const char *name)
 {
     const char *best = "";
     size_t least = SIZE_MAX;
     for (int32_t k = 0; k < mps_table_columns(r->table); k++) {
         const char *known = mps_table_name(r->table, k);
-        const size_t letters = record_distance(name, known);
+        const size_t letters = mps__word_distance(name, known);
         if (letters >= least) continue;
         least = letters;
         best = known;

@@ -26,8 +26,6 @@ mps_status record_read_reference(const mps_stats_config *config, const char *fol
 int32_t record_find(const record *r, const char *name);
 /* The column with the most similar name, "" without columns. */
 const char *record_nearest(const record *r, const char *name);
-/* Edit distance of two words: letters to insert, remove or replace; of their first 64 letters. */
-size_t record_distance(const char *a, const char *b);
 /* Last time of probes.csv in a folder, NAN without rows. */
 double record_last(const char *folder);
 /* Last time of the table, NAN without rows. */

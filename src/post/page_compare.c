@@ -36,26 +36,19 @@ static void write_figures(FILE *out, const mps_comparison *c, const char *unit, 
 /* A row of the table. @return MPS_E_NOMEM, or MPS_OK */
 static mps_status write_row(FILE *out, against *g, int32_t column)
 {
-    const page_table *t = &g->run->probes;
+    const mps__csv *t = &g->run->probes;
     const int64_t n = mps_table_rows(g->reference);
-    double *both = malloc((size_t)(2 * t->rows + 1) * sizeof *both);
-    if (!both) return mps__page_fail(g->run->errors, MPS_E_NOMEM, "no memory for the page");
-    for (int64_t i = 0; i < t->rows; i++) {
-        both[i] = t->value[i * t->columns];
-        both[t->rows + i] = t->value[i * t->columns + column];
-    }
     const mps_series first = {.struct_size = sizeof first,
                               .n = n,
                               .t = mps_table_values(g->reference, -1),
                               .p = mps_table_values(g->reference, 0)};
     const mps_series second = {
-        .struct_size = sizeof second, .n = t->rows, .t = both, .p = both + t->rows};
+        .struct_size = sizeof second, .n = t->rows, .t = t->value[0], .p = t->value[column]};
     mps_comparison c;
     mps_comparison_init(&c, sizeof c);
     const bool points = mps_table_is_points(g->reference);
     const mps_status status = points ? mps_points_compare(&g->config, &first, &second, &c)
                                      : mps_series_compare(&g->config, &first, &second, &c);
-    free(both);
     if (status == MPS_E_NOMEM)
         return mps__page_fail(g->run->errors, status, "no memory for the page");
     fputs("<tr><th scope=\"row\">", out);
@@ -77,7 +70,7 @@ static mps_status write_row(FILE *out, against *g, int32_t column)
 /* Rows for the column of its name, or for all columns of its unit. */
 static mps_status write_rows(FILE *out, against *g)
 {
-    const page_table *t = &g->run->probes;
+    const mps__csv *t = &g->run->probes;
     const char *name = mps_table_name(g->reference, 0), *unit = mps_table_unit(g->reference, 0);
     mps_status status = MPS_OK;
     for (int32_t k = 1; status == MPS_OK && k < t->columns; k++)

@@ -59,7 +59,7 @@ static const plot_rule momentum_rule[] = {
 typedef struct curves {
     FILE *out;
     const page_run *run;
-    const page_table *table;
+    const mps__csv *table;
     const plot_rule *rules;
     int64_t bucket, points;
     double *value; /* [points] */
@@ -73,7 +73,7 @@ static mps_status no_memory(const page_run *r)
 
 static const double *at(const curves *c, int64_t i, int32_t k)
 {
-    return c->table->value + i * c->table->columns + k;
+    return c->table->value[k] + i;
 }
 
 /* Rows of the least and the largest value of a bucket. */
@@ -291,7 +291,7 @@ mps_status mps__page_curves(FILE *out, const page_run *r, int64_t bytes)
 {
     const struct {
         const char *name;
-        const page_table *table;
+        const mps__csv *table;
         const plot_rule *rules;
     } all[] = {{"probes.csv", &r->probes, probes_rule},
                {"momentum.csv", &r->momentum, momentum_rule},

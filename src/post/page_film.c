@@ -2,6 +2,7 @@
 /* Reads all frames of a run once: moving particles, motion of the tank, bounds and colour
  * scales. */
 #include "page_film.h"
+#include "grow.h"
 #include "page_pose.h"
 #include <math.h>
 #include <stdlib.h>
@@ -99,13 +100,9 @@ int64_t mps__film_find(const film_index *index, double id)
 
 static bool index_add(film_index *index, double id)
 {
-    if (index->count == index->capacity) {
-        const int64_t wanted = index->capacity ? 2 * index->capacity : 1024;
-        film_entry *more = realloc(index->entry, (size_t)wanted * sizeof *more);
-        if (!more) return false;
-        index->entry = more;
-        index->capacity = wanted;
-    }
+    film_entry *more = mps__grown(index->entry, index->count, sizeof *more);
+    if (!more) return false;
+    index->entry = more;
     index->entry[index->count] = (film_entry){(int64_t)id, index->count};
     index->count++;
     return true;
@@ -141,13 +138,10 @@ static bool take_scales(film *f, const film_frame *s, int64_t i, bool sampled)
 
 static mps_status add_phase(film *f, double phase)
 {
-    const int64_t count = f->moving.count;
-    if ((count & (count - 1)) == 0) { /* at powers of two */
-        unsigned char *more = realloc(f->phase, (size_t)(count ? 2 * count : 1));
-        if (!more) return no_memory(f);
-        f->phase = more;
-    }
-    f->phase[count] = (unsigned char)phase;
+    unsigned char *more = mps__grown(f->phase, f->moving.count, 1);
+    if (!more) return no_memory(f);
+    f->phase = more;
+    f->phase[f->moving.count] = (unsigned char)phase;
     return MPS_OK;
 }
 

@@ -30,7 +30,7 @@ typedef struct film_entry {
 } film_entry;
 
 typedef struct film_index {
-    int64_t count, capacity;
+    int64_t count;
     film_entry *entry; /* sorted by id up to `sorted` */
     int64_t sorted;
 } film_index;

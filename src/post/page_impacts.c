@@ -20,16 +20,10 @@ typedef struct sensor {
 /* Evaluate the column as a signal of its own. */
 static mps_status find_impacts(const page_run *r, const mps_stats_config *config, sensor *s)
 {
-    const page_table *t = &r->probes;
+    const mps__csv *t = &r->probes;
     mps_impact high;
-    double *both = malloc((size_t)(t->rows + 1) * 2 * sizeof *both);
-    if (!both) return mps__page_fail(r->errors, MPS_E_NOMEM, "no memory for the page");
-    for (int64_t i = 0; i < t->rows; i++) {
-        both[i] = t->value[i * t->columns];
-        both[t->rows + i] = t->value[i * t->columns + s->column->place];
-    }
-    mps_status status = mps_impacts_find(config, t->rows, both, both + t->rows, &s->impacts);
-    free(both);
+    const mps_status status = mps_impacts_find(config, t->rows, t->value[0],
+                                               t->value[s->column->place], &s->impacts);
     mps_impact_init(&high, sizeof high);
     s->highest = -INFINITY;
     if (status == MPS_OK && mps_impacts_highest(s->impacts, 0, &high) == MPS_OK)

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reads the folder of a run. */
 #include "page_read.h"
+#include "grow.h"
 #include "run_file.h"
 #include <errno.h>
 #include <math.h>
@@ -32,14 +33,6 @@ char *mps__page_path(const char *folder, const char *name)
     return path;
 }
 
-/* Size of an open file, -1 with errno. */
-static long size_of(FILE *file)
-{
-    if (fseek(file, 0, SEEK_END) != 0) return -1;
-    const long size = ftell(file);
-    return fseek(file, 0, SEEK_SET) == 0 ? size : -1;
-}
-
 mps_status mps__page_open(const page_run *r, const char *path, FILE **out)
 {
     const char *why;
@@ -54,33 +47,21 @@ mps_status mps__page_open(const page_run *r, const char *path, FILE **out)
 mps_status mps__page_file(const page_run *r, const char *path, int64_t most, char **out,
                           size_t *size)
 {
-    page_errors *e = r->errors;
     FILE *file;
+    size_t length = 0;
     *out = NULL;
-    mps_status status = mps__page_open(r, path, &file);
+    const mps_status status = mps__page_open(r, path, &file);
     if (status != MPS_OK) return status;
-    setvbuf(file, NULL, _IONBF, 0); /* it is read in one call */
-    const long length = size_of(file);
-    if (length < 0)
-        status = mps__page_fail(e, MPS_E_IO, "cannot read '%s': %s", path, strerror(errno));
-    else if (length > most)
-        status = mps__page_fail(e, MPS_E_IO, "'%s' has %ld bytes, at most %lld are read", path,
-                                length, (long long)most);
-    else if (!(*out = malloc((size_t)length + 1)))
-        status = no_memory(e);
-    if (status == MPS_OK) {
-        const size_t got = fread(*out, 1, (size_t)length, file);
-        (*out)[got] = '\0';
-        if (size) *size = got;
-        if (got != (size_t)length)
-            status = mps__page_fail(e, MPS_E_IO, "'%s' cannot be read to its end", path);
-    }
+    *out = mps__file_read(file, (size_t)most, &length);
+    const int number = errno;
     fclose(file);
-    if (status != MPS_OK) {
-        free(*out);
-        *out = NULL;
-    }
-    return status;
+    if (size) *size = length;
+    if (*out) return MPS_OK;
+    if (number == ENOMEM) return no_memory(r->errors);
+    if (number == EFBIG)
+        return mps__page_fail(r->errors, MPS_E_IO, "'%s' has %lld bytes, at most %lld are read",
+                              path, (long long)length, (long long)most);
+    return mps__page_fail(r->errors, MPS_E_IO, "cannot read '%s': %s", path, strerror(number));
 }
 
 /* ---- summary.json ---------------------------------------------------------------------------- */
@@ -93,8 +74,7 @@ double mps__page_number(const page_run *r, const char *key)
 
 const char *mps__page_string(const page_run *r, const char *key)
 {
-    const char *text = mps__json_text(mps__json_get(r->summary, key));
-    return text ? text : "";
+    return mps__json_member(r->summary, key);
 }
 
 const char *mps__page_input(const page_run *r, const char *key)
@@ -107,13 +87,7 @@ const char *mps__page_input(const page_run *r, const char *key)
     return NULL;
 }
 
-static const char *text_in(const json_value *object, const char *key)
-{
-    const char *text = mps__json_text(mps__json_get(object, key));
-    return text ? text : "";
-}
-
-/* Three numbers. @return false: missing */
+/* Three numbers. @return false if there are none */
 static bool vector_in(const json_value *object, const char *key, double out[3])
 {
     const json_value *list = mps__json_get(object, key);
@@ -134,11 +108,11 @@ static mps_status read_columns(page_run *r)
     for (size_t k = 0; k < count; k++) {
         const json_value *one = mps__json_at(list, k);
         page_column *c = &r->column[r->columns++];
-        *c = (page_column){.name = text_in(one, "name"),
-                           .unit = text_in(one, "unit"),
-                           .type = text_in(one, "type"),
-                           .about = text_in(one, "about"),
-                           .part = text_in(one, "part")};
+        *c = (page_column){.name = mps__json_member(one, "name"),
+                           .unit = mps__json_member(one, "unit"),
+                           .type = mps__json_member(one, "type"),
+                           .about = mps__json_member(one, "about"),
+                           .part = mps__json_member(one, "part")};
         c->has_place = vector_in(one, "at", c->at);
         c->has_normal = vector_in(one, "normal", c->normal);
         c->diameter = mps__json_number(mps__json_get(one, "diameter"));
@@ -208,7 +182,7 @@ static mps_status add_frame(page_run *r, char *tag, const char *path, int64_t fi
         return mps__page_fail(r->errors, MPS_E_IO, "'%s': frame %lld has no time or no file", path,
                               (long long)(r->frames - first));
     unescape(file);
-    page_stamp *more = realloc(r->frame, (size_t)(r->frames + 1) * sizeof *more);
+    page_stamp *more = mps__grown(r->frame, r->frames, sizeof *more);
     if (!more) return no_memory(r->errors);
     r->frame = more;
     page_stamp *s = &more[r->frames];
@@ -267,7 +241,7 @@ mps_status mps__page_peaks_read(page_run *r)
 
 /* ---- the whole folder ------------------------------------------------------------------------ */
 
-static mps_status read_table(page_run *r, const char *name, bool wanted, page_table *out)
+static mps_status read_table(page_run *r, const char *name, bool wanted, mps__csv *out)
 {
     char *path = mps__page_path(r->folder, name);
     if (!path) return no_memory(r->errors);
@@ -316,9 +290,9 @@ mps_status mps__page_run_read(page_run *r, const char *folder, page_errors *e)
 void mps__page_run_free(page_run *r)
 {
     mps__json_free(r->summary);
-    mps__page_table_free(&r->probes);
-    mps__page_table_free(&r->steps);
-    mps__page_table_free(&r->momentum);
+    mps__csv_free(&r->probes);
+    mps__csv_free(&r->steps);
+    mps__csv_free(&r->momentum);
     for (int64_t k = 0; k < r->frames; k++) free(r->frame[k].path);
     free(r->frame);
     free(r->column);

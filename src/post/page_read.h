@@ -3,7 +3,8 @@
 #ifndef MPS_POST_PAGE_READ_H
 #define MPS_POST_PAGE_READ_H
 
-#include "page_json.h"
+#include "csv.h"
+#include "json.h"
 #include <mps/status.h>
 #include <stdbool.h>
 #include <stdint.h>
@@ -15,15 +16,7 @@ typedef struct page_errors {
     size_t size;
 } page_errors;
 
-/* A CSV file: names as "P1", units as "Pa". */
-typedef struct page_table {
-    int32_t columns;
-    int64_t rows;
-    char **name, **unit; /* [columns]; unit "" for none */
-    double *value;       /* [rows*columns] */
-} page_table;
-
-/* A column of probes.csv as described in summary.json, which owns the texts. */
+/* What a column of probes.csv is, from summary.json; texts belong to the summary. */
 typedef struct page_column {
     const char *name, *unit, *type, *about, *part; /* never NULL */
     double at[3], normal[3], diameter;
@@ -42,7 +35,7 @@ typedef struct page_run {
     const char *folder;
     page_errors *errors;
     json_value *summary;
-    page_table probes, steps, momentum; /* the last two may be empty */
+    mps__csv probes, steps, momentum; /* the last two may be empty */
     int32_t columns;
     page_column *column;
     int64_t frames;
@@ -64,14 +57,12 @@ mps_status mps__page_open(const page_run *r, const char *path, FILE **out);
  * @param most  largest size. MPS_E_NAME: the file does not exist. */
 mps_status mps__page_file(const page_run *r, const char *path, int64_t most, char **out,
                           size_t *size);
-/* Read a table; MPS_E_NAME without a text: the file does not exist. An incomplete last row is
- * ignored. */
-mps_status mps__page_table_read(const page_run *r, const char *path, page_table *out);
-void mps__page_table_free(page_table *t);
+/* Read a table; MPS_E_NAME without a text: there is no such file. A last row that is not complete is left out. */
+mps_status mps__page_table_read(const page_run *r, const char *path, mps__csv *out);
 /* Column by name, -1: none. */
-int32_t mps__page_table_find(const page_table *t, const char *name);
-/* Value of the last row; NAN if there is none. */
-double mps__page_table_last(const page_table *t, int32_t column);
+int32_t mps__page_table_find(const mps__csv *t, const char *name);
+/* Value of the last row; NAN where there is none. */
+double mps__page_table_last(const mps__csv *t, int32_t column);
 
 /* Read summary.json of r->folder alone. MPS_E_NAME without a text: it does not exist, as in a run
  * in progress. */

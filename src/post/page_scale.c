@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "page_scale.h"
+#include "grow.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -26,13 +27,9 @@ const double mps__scale_map[SCALE_MAPS][SCALE_COLOURS][3] = {
 bool mps__scale_take(page_scale *s, double value)
 {
     if (!isfinite(value)) return true;
-    if (s->count == s->capacity) {
-        const int64_t wanted = s->capacity ? 2 * s->capacity : 4096;
-        double *more = realloc(s->sample, (size_t)wanted * sizeof *more);
-        if (!more) return false;
-        s->sample = more;
-        s->capacity = wanted;
-    }
+    double *more = mps__grown(s->sample, s->count, sizeof *more);
+    if (!more) return false;
+    s->sample = more;
     s->sample[s->count++] = value;
     return true;
 }
@@ -63,7 +60,7 @@ void mps__scale_end(page_scale *s, double noise, bool bottom)
     }
     free(s->sample);
     s->sample = NULL;
-    s->count = s->capacity = 0;
+    s->count = 0;
     s->hi = top > 0 ? round_up(top) : 1;
     s->lo = low < -0.05 * s->hi ? -round_up(-low) : 0;
     s->most = fmax(s->most, s->hi);

@@ -17,7 +17,7 @@ extern const double mps__scale_map[SCALE_MAPS][SCALE_COLOURS][3];
 /* A quantity over a whole run: the colours span lo to hi, values span least to most. */
 typedef struct page_scale {
     double lo, hi, least, most;
-    int64_t count, capacity; /* of the sample */
+    int64_t count; /* of the sample */
     double *sample;
 } page_scale;
 

@@ -131,7 +131,7 @@ static double last_of(const page_run *r, const char *name)
 static double change_of(const page_run *r, const char *name)
 {
     const int32_t k = mps__page_table_find(&r->probes, name);
-    return k >= 0 && r->probes.rows > 0 ? last_of(r, name) - r->probes.value[k] : NAN;
+    return k >= 0 && r->probes.rows > 0 ? last_of(r, name) - r->probes.value[k][0] : NAN;
 }
 
 /* "- 2.3 J/m went to viscosity and dissipation." Omitted below a thousandth of `all`. */

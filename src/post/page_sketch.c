@@ -231,26 +231,25 @@ static void write_place(FILE *out, const page_run *r, const page_column *c)
  * to the other value are set to 0. */
 static void write_extremes(FILE *out, const page_run *r, const page_column *c)
 {
-    const page_table *t = &r->probes;
+    const mps__csv *t = &r->probes;
+    const double *time = t->value[0], *v = t->value[c->place];
     const double start = 0.005 * mps__page_number(r, "t_end");
     char text[TEXT_NUMBER];
     int64_t high = -1, low = -1;
     for (int64_t i = 0; i < t->rows; i++) {
-        const double *row = t->value + i * t->columns;
-        if (!isfinite(row[c->place]) || row[0] < start) continue;
-        if (high < 0 || row[c->place] > t->value[high * t->columns + c->place]) high = i;
-        if (low < 0 || row[c->place] < t->value[low * t->columns + c->place]) low = i;
+        if (!isfinite(v[i]) || time[i] < start) continue;
+        if (high < 0 || v[i] > v[high]) high = i;
+        if (low < 0 || v[i] < v[low]) low = i;
     }
     const int64_t row[] = {high, low};
     double most = 0;
     for (int k = 0; k < 2; k++)
-        if (row[k] >= 0) most = fmax(most, fabs(t->value[row[k] * t->columns + c->place]));
+        if (row[k] >= 0) most = fmax(most, fabs(v[row[k]]));
     for (int k = 0; k < 2; k++) {
-        const double *v = row[k] >= 0 ? t->value + row[k] * t->columns : NULL;
-        const double value = v ? v[c->place] : NAN;
+        const double value = row[k] >= 0 ? v[row[k]] : NAN, at = row[k] >= 0 ? time[row[k]] : NAN;
         fputs("<td class=\"number\">", out);
         mps__html(out, mps__quantity(text, fabs(value) < 1e-6 * most ? 0 : value, c->unit));
-        fprintf(out, "</td><td class=\"number\">%s</td>", mps__quantity(text, v ? v[0] : NAN, "s"));
+        fprintf(out, "</td><td class=\"number\">%s</td>", mps__quantity(text, at, "s"));
     }
 }
 

@@ -1,98 +1,32 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "page_text.h"
-#include "plain.h"
+#include "escape.h"
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>
 
 /* ---- escape ---- */
 
-/* A UTF-8 character at `text`, and its bytes.
- * @return its code point; -1: invalid, and `size` is 1 */
-static long character_at(const char *text, size_t *size)
+/* A character of a string of JSON within <script>. */
+static size_t script_character(const char *text, char out[8])
 {
-    const unsigned char *c = (const unsigned char *)text;
-    const size_t length = mps__character(text);
-    long code = length > 1 ? c[0] & (0x7f >> length) : c[0];
-    *size = length > 0 ? length : 1;
-    for (size_t k = 1; k < length; k++) code = code << 6 | (c[k] & 0x3f);
-    return length > 0 ? code : -1;
-}
-
-/* Characters that no text of a page contains: control characters, those that change the direction
- * or the line of a text, and noncharacters. XML forbids many of them. */
-static bool is_plain(long c)
-{
-    if (c < 0x20) return c == '\n' || c == '\t';
-    return !((c >= 0x7f && c < 0xa0) || (c >= 0x2028 && c <= 0x202e) ||
-             (c >= 0x2066 && c <= 0x2069) || (c & 0xfffe) == 0xfffe);
-}
-
-/* Write a text, replacing characters by `escape`, NULL: unchanged; all that is not plain becomes
- * U+FFFD. */
-static void write_text(FILE *out, const char *text, const char *(*escape)(long c))
-{
-    size_t size;
-    for (; *text; text += size) {
-        const long c = character_at(text, &size);
-        if (c == '\r' && text[1] == '\n') continue;
-        const char *instead = is_plain(c) ? escape(c) : "\xef\xbf\xbd";
-        if (instead)
-            fputs(instead, out);
-        else
-            fwrite(text, 1, size, out);
-    }
-}
-
-static const char *escape_html(long c)
-{
-    switch (c) {
-    case '&':
-        return "&amp;";
-    case '<':
-        return "&lt;";
-    case '>':
-        return "&gt;";
-    case '"':
-        return "&quot;";
-    case '\'':
-        return "&#39;";
-    default:
-        return NULL;
-    }
-}
-
-static const char *escape_json(long c)
-{
-    switch (c) {
-    case '"':
-        return "\\\"";
-    case '\\':
-        return "\\\\";
-    case '\n':
-        return "\\n";
-    case '\t':
-        return "\\t";
-    case '<': /* "</script>" ends the element, "<!-- <script>" extends it beyond its end */
-        return "\\u003c";
-    case '>':
-        return "\\u003e";
-    case '&':
-        return "\\u0026";
-    default:
-        return NULL;
-    }
+    char shown[8];
+    const size_t length = mps__shown_character(text, shown);
+    out[0] = '\0';
+    if (shown[0]) mps__json_character(shown, out);
+    if (out[0] == '>' || out[0] == '&') snprintf(out, 8, "\\u%04x", (unsigned)out[0]);
+    return length;
 }
 
 void mps__html(FILE *out, const char *text)
 {
-    write_text(out, text, escape_html);
+    mps__put_escaped(out, text, mps__xml_character);
 }
 
 void mps__json(FILE *out, const char *text)
 {
     fputc('"', out);
-    write_text(out, text, escape_json);
+    mps__put_escaped(out, text, script_character);
     fputc('"', out);
 }
 

@@ -68,12 +68,12 @@ static light light_end(const page_run *r)
     return l;
 }
 
-static double largest(const page_table *t, const char *name)
+static double largest(const mps__csv *t, const char *name)
 {
     const int32_t k = mps__page_table_find(t, name);
     double most = NAN;
     for (int64_t i = 0; k >= 0 && i < t->rows; i++) {
-        const double v = fabs(t->value[i * t->columns + k]);
+        const double v = fabs(t->value[k][i]);
         if (isfinite(v) && !(most >= v)) most = v;
     }
     return most;
@@ -114,14 +114,14 @@ static light light_lost(const page_run *r)
 
 /* ---- energy ---- */
 
-/* Energy of the wave: the largest sum of kinetic energy and change of potential energy. */
-static double wave_energy(const page_table *t)
+/* Energy in the wave: the largest kinetic energy and change of the potential one. */
+static double wave_energy(const mps__csv *t)
 {
     const int32_t ke = mps__page_table_find(t, "ke"), pe = mps__page_table_find(t, "pe");
     double most = NAN;
     if (ke < 0 || pe < 0) return NAN;
     for (int64_t i = 0; i < t->rows; i++) {
-        const double *row = t->value + i * t->columns, e = row[ke] + fabs(row[pe] - t->value[pe]);
+        const double e = t->value[ke][i] + fabs(t->value[pe][i] - t->value[pe][0]);
         if (isfinite(e) && !(most >= e)) most = e;
     }
     return most;
@@ -171,24 +171,23 @@ static light light_energy(const page_run *r)
 
 /* ---- impacts ---- */
 
-/* Rise time of the largest value of a column as a triangle: twice the time from half of it to it
- * [s]; NAN if the record does not contain it. */
-static double rise_of(const page_table *t, int32_t k, double start, double *at)
+/* Rise of the largest value of a column as a triangle: twice the time from half of it to it [s]; NAN where it is not in the record. */
+static double rise_of(const mps__csv *t, int32_t k, double start, double *at)
 {
+    const double *time = t->value[0], *value = t->value[k];
     int64_t peak = -1;
     for (int64_t i = 0; i < t->rows; i++) {
-        const double *row = t->value + i * t->columns;
-        if (row[0] < start || !isfinite(row[k])) continue;
-        if (peak < 0 || row[k] > t->value[peak * t->columns + k]) peak = i;
+        if (time[i] < start || !isfinite(value[i])) continue;
+        if (peak < 0 || value[i] > value[peak]) peak = i;
     }
     if (peak < 0) return NAN;
-    const double half = t->value[peak * t->columns + k] / 2;
-    *at = t->value[peak * t->columns];
+    const double half = value[peak] / 2;
+    *at = time[peak];
     for (int64_t i = peak; i > 0; i--) {
-        const double *row = t->value + (i - 1) * t->columns, p = row[k], next = row[t->columns + k];
-        if (row[0] < start) return NAN;
+        const double p = value[i - 1], next = value[i];
+        if (time[i - 1] < start) return NAN;
         if (!(p < half)) continue;
-        const double cross = row[0] + (row[t->columns] - row[0]) * (half - p) / (next - p);
+        const double cross = time[i - 1] + (time[i] - time[i - 1]) * (half - p) / (next - p);
         return 2 * (*at - cross);
     }
     return NAN;
@@ -196,18 +195,18 @@ static double rise_of(const page_table *t, int32_t k, double start, double *at)
 
 double mps__page_crossing(const page_run *r, double t)
 {
-    const page_table *s = &r->steps;
+    const mps__csv *s = &r->steps;
     const int32_t k = mps__page_table_find(s, "crossing_time");
     int64_t lo = 0, hi = s->rows;
     if (k < 0 || s->rows == 0) return NAN;
     while (hi - lo > 1) {
         const int64_t middle = (lo + hi) / 2;
-        if (s->value[middle * s->columns] <= t)
+        if (s->value[0][middle] <= t)
             lo = middle;
         else
             hi = middle;
     }
-    return s->value[lo * s->columns + k];
+    return s->value[k][lo];
 }
 
 /* @param steepest  out: least rise of a peak in crossing times; INFINITY: no sensor has a rise */

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reads frames of the library. */
 #include "page_vtp.h"
+#include "grow.h"
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,7 +124,7 @@ static mps_status add_piece(vtp_frame *f, char *path)
     char *head = NULL;
     size_t size = 0;
     vtp_piece *more = path && f->pieces < PIECES_MOST
-                          ? realloc(f->piece, (size_t)(f->pieces + 1) * sizeof *more)
+                          ? mps__grown(f->piece, f->pieces, sizeof *more)
                           : NULL;
     if (!more) {
         free(path);

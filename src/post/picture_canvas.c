@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "picture_canvas.h"
-#include "plain.h"
+#include "escape.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>

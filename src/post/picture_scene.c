@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "picture_scene.h"
+#include "grow.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,7 +27,7 @@ void mps__scene_free(scene *s)
 
 scene_sensor *mps__scene_sensor(scene *s, const char *name)
 {
-    scene_sensor *more = realloc(s->sensor, (size_t)(s->sensors + 1) * sizeof *more);
+    scene_sensor *more = mps__grown(s->sensor, s->sensors, sizeof *more);
     if (!more) return NULL;
     s->sensor = more;
     scene_sensor *own = &more[s->sensors++];

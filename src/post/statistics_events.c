@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Finds events in a signal, which is linear between two samples. */
+/* From a signal to events: what lies between two samples is the straight line. */
+#include "grow.h"
 #include "statistics.h"
 #include <math.h>
 #include <stdlib.h>
@@ -192,22 +193,12 @@ typedef struct search {
     const mps__signal *signal;
     double threshold;
     mps_impact *event;
-    int64_t count, capacity, cut;
-    bool open, whole; /* an event is open; its beginning is in the record */
+    int64_t count, cut;
+    bool open, whole; /* an event goes on; its beginning is in the record */
     int64_t first, last;
 } search;
 
-static mps_status grow(search *f)
-{
-    const int64_t capacity = f->capacity ? 2 * f->capacity : 64;
-    mps_impact *event = realloc(f->event, (size_t)capacity * sizeof *event);
-    if (!event) return mps__stats_no_memory(f->config);
-    f->event = event;
-    f->capacity = capacity;
-    return MPS_OK;
-}
-
-/* End the open event. */
+/* The event that goes on has ended. */
 static mps_status close_event(search *f)
 {
     if (!f->open) return MPS_OK;
@@ -216,7 +207,9 @@ static mps_status close_event(search *f)
         f->cut++;
         return MPS_OK;
     }
-    if (f->count == f->capacity) MPS__STATS_TRY(grow(f));
+    mps_impact *event = mps__grown(f->event, f->count, sizeof *event);
+    if (!event) return mps__stats_no_memory(f->config);
+    f->event = event;
     f->event[f->count++] = describe(f->config, f->signal, f->threshold, f->first, f->last);
     return MPS_OK;
 }

@@ -163,13 +163,7 @@ int32_t mps_table_is_points(const mps_table *table)
 
 /* ---- references ---- */
 
-static const char *text_of(const json_value *object, const char *key)
-{
-    const char *text = mps__json_text(mps__json_get(object, key));
-    return text ? text : "";
-}
-
-/* Allocate two columns, time and value, with so many rows. @return false: memory is exhausted */
+/* Two columns, the time and the value, for so many rows. @return false: no memory */
 static bool make_columns(mps_table *t, const json_value *one, size_t rows)
 {
     static const char *const time[2] = {"t", "s"};
@@ -178,13 +172,13 @@ static bool make_columns(mps_table *t, const json_value *one, size_t rows)
     c->unit = calloc(2, sizeof *c->unit);
     c->value = calloc(2, sizeof *c->value);
     t->column = calloc(2, sizeof *t->column);
-    t->label = strdup(text_of(one, "label"));
+    t->label = strdup(mps__json_member(one, "label"));
     if (!c->name || !c->unit || !c->value || !t->column || !t->label) return false;
     c->columns = t->columns = 2;
     t->column[1] = 1;
     for (int k = 0; k < 2; k++) {
-        c->name[k] = strdup(k ? text_of(one, "column") : time[0]);
-        c->unit[k] = strdup(k ? text_of(one, "unit") : time[1]);
+        c->name[k] = strdup(k ? mps__json_member(one, "column") : time[0]);
+        c->unit[k] = strdup(k ? mps__json_member(one, "unit") : time[1]);
         c->value[k] = malloc((rows + 1) * sizeof **c->value);
         if (!c->name[k] || !c->unit[k] || !c->value[k]) return false;
     }

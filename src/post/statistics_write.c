@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Writes statistics as text: events as CSV, everything as JSON. */
-#include "plain.h"
+/* Statistics as text: events as CSV, everything as JSON. */
+#include "escape.h"
 #include "statistics.h"
 #include <math.h>
 #include <stdarg.h>

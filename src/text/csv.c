@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Reads tables of numbers. The file is read in blocks; only the wanted columns are kept. */
 #include "csv.h"
+#include "grow.h"
 #include "run_file.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -13,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { BLOCK = 1 << 16, LINE_MOST = 1 << 24, SHOWN = 40, FIRST_ROWS = 1024 };
+enum { BLOCK = 1 << 16, LINE_MOST = 1 << 24, SHOWN = 40 };
 
 /* A field of a line: its text without quotes and surrounding blanks, 0-terminated. */
 typedef struct field {
@@ -30,7 +31,6 @@ struct mps__csv_lines {
     bool carriage;           /* the last line ended with CR: a following LF belongs to it */
     bool comment;            /* a line that begins with # precedes the names */
     char separator;
-    int64_t capacity;
     int32_t fields; /* capacity of `field` */
     field *field;
 };
@@ -79,7 +79,17 @@ static mps__csv_error open_file(mps__csv *t)
     return CSV_OK;
 }
 
-/* Read more of the file into the buffer, which may be reallocated. One byte stays free for a 0. */
+static void close_file(mps__csv *t)
+{
+    if (!t->in) return;
+    if (t->in->file >= 0) close(t->in->file);
+    free(t->in->buffer);
+    free(t->in->field);
+    free(t->in);
+    t->in = NULL;
+}
+
+/* More of the file into the buffer, which may move. One byte of it stays free for a 0. */
 static mps__csv_error fill(mps__csv *t)
 {
     struct mps__csv_lines *r = t->in;
@@ -357,19 +367,15 @@ mps__csv_error mps__csv_open_in(mps__csv *t, const char *folder, const char *pat
 
 static mps__csv_error reserve(mps__csv *t)
 {
-    if (t->rows < t->in->capacity) return CSV_OK;
-    const int64_t capacity = t->in->capacity ? 2 * t->in->capacity : FIRST_ROWS;
-    if ((uint64_t)capacity > SIZE_MAX / sizeof(double)) return CSV_MEMORY;
     for (int32_t k = 0; k < t->columns; k++) {
         if (!t->wanted[k]) continue;
-        double *value = realloc(t->value[k], (size_t)capacity * sizeof *value);
+        double *value = mps__grown(t->value[k], t->rows, sizeof *value);
         if (!value) return CSV_MEMORY;
         t->value[k] = value;
     }
-    int64_t *line = realloc(t->line, (size_t)capacity * sizeof *line);
+    int64_t *line = mps__grown(t->line, t->rows, sizeof *line);
     if (!line) return CSV_MEMORY;
     t->line = line;
-    t->in->capacity = capacity;
     return CSV_OK;
 }
 
@@ -394,7 +400,7 @@ static mps__csv_error read_number(mps__csv *t, int32_t column, const char *text)
                   is_number(text) && *end == ',' ? "; write its decimal comma as a point" : "");
 }
 
-mps__csv_error mps__csv_read(mps__csv *t)
+static mps__csv_error read_rows(mps__csv *t)
 {
     for (;;) {
         char *line;
@@ -413,11 +419,18 @@ mps__csv_error mps__csv_read(mps__csv *t)
     }
 }
 
+mps__csv_error mps__csv_read(mps__csv *t)
+{
+    const mps__csv_error error = read_rows(t);
+    close_file(t);
+    return error;
+}
+
 void mps__csv_free(mps__csv *t)
 {
     for (int32_t k = 0; k < t->columns; k++) {
-        if (t->name) free(t->name[k]); /* the caller may own them now */
-        if (t->unit) free(t->unit[k]);
+        free(t->name[k]);
+        free(t->unit[k]);
         free(t->value[k]);
     }
     free((void *)t->name);
@@ -425,12 +438,7 @@ void mps__csv_free(mps__csv *t)
     free((void *)t->value);
     free(t->wanted);
     free(t->line);
-    if (t->in) {
-        if (t->in->file >= 0) close(t->in->file);
-        free(t->in->buffer);
-        free(t->in->field);
-        free(t->in);
-    }
+    close_file(t);
     *t = (mps__csv){0};
 }
 

@@ -6,7 +6,6 @@
 #undef strtod
 #include <errno.h>
 #include <locale.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdlib.h>
 
@@ -136,40 +135,4 @@ int mps__compare_letters(const char *a, const char *b, size_t most)
     while (i < most && a[i] && mps__lower((unsigned char)a[i]) == mps__lower((unsigned char)b[i]))
         i++;
     return i < most ? mps__lower((unsigned char)a[i]) - mps__lower((unsigned char)b[i]) : 0;
-}
-
-size_t mps__character(const char *text)
-{
-    static const unsigned least[] = {0, 0, 0x80, 0x800, 0x10000};
-    const unsigned char *b = (const unsigned char *)text;
-    const size_t length = b[0] < 0x80   ? b[0] != 0
-                          : b[0] < 0xC2 ? 0
-                          : b[0] < 0xE0 ? 2
-                          : b[0] < 0xF0 ? 3
-                          : b[0] < 0xF5 ? 4
-                                        : 0;
-    if (length < 2) return length;
-    unsigned value = b[0] & (0x7Fu >> length);
-    for (size_t i = 1; i < length; i++) {
-        if ((b[i] & 0xC0) != 0x80) return 0;
-        value = value << 6 | (b[i] & 0x3Fu);
-    }
-    const bool good = value >= least[length] && value <= 0x10FFFF &&
-                      (value < 0xD800 || value > 0xDFFF);
-    return good ? length : 0;
-}
-
-size_t mps__json_character(const char *text, char out[8])
-{
-    const size_t length = mps__character(text);
-    const unsigned char c = (unsigned char)*text;
-    if (length == 0)
-        mps__snprintf(out, 8, "\\ufffd");
-    else if (c == '"' || c == '\\')
-        mps__snprintf(out, 8, "\\%c", c);
-    else if (c < 0x20 || c == '<')
-        mps__snprintf(out, 8, "\\u%04x", (unsigned)c);
-    else
-        mps__snprintf(out, 8, "%.*s", (int)length, text);
-    return length ? length : 1;
 }

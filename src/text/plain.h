@@ -36,13 +36,6 @@ int mps__is_blank(int c);
 /* As strcasecmp(): 'I' and 'i' are equal, in a Turkish locale too. */
 int mps__compare_letters(const char *a, const char *b, size_t most);
 
-/* Number of bytes of the UTF-8 character at `text`; 0: invalid, for example a byte of Latin-1. */
-size_t mps__character(const char *text);
-/* Write the first character of `text` for a JSON string. '<' is escaped too, so that no "</script>"
- * ends an element of a page. A byte that is not UTF-8, as in a file name, becomes U+FFFD.
- * @return bytes of `text` that were read, 1 or more */
-size_t mps__json_character(const char *text, char out[8]);
-
 #undef vsnprintf
 #undef snprintf
 #undef vfprintf

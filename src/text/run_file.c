@@ -8,7 +8,27 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Both names have their links resolved. */
+char *mps__file_read(FILE *file, size_t most, size_t *size)
+{
+    setvbuf(file, NULL, _IONBF, 0); /* one read: a buffer has no use */
+    const long length = fseek(file, 0, SEEK_END) == 0 ? ftell(file) : -1;
+    if (length < 0 || fseek(file, 0, SEEK_SET) != 0) return NULL;
+    *size = (size_t)length;
+    errno = *size > most ? EFBIG : ENOMEM;
+    char *data = *size > most ? NULL : malloc(*size + 1);
+    if (!data) return NULL;
+    errno = EIO;
+    if (fread(data, 1, *size, file) != *size) {
+        const int number = errno;
+        free(data);
+        errno = number;
+        return NULL;
+    }
+    data[*size] = '\0';
+    return data;
+}
+
+/* Both without links. */
 static bool is_below(const char *folder, const char *path)
 {
     const size_t length = strlen(folder);
@@ -79,4 +99,16 @@ FILE *mps__run_create(const char *path, const char *mode)
     }
     errno = number;
     return file;
+}
+
+bool mps__program_file(const char *name, const char *other, char *path, size_t size)
+{
+    char from[1024];
+    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
+    while (length > 0 && from[length - 1] != '/') length--;
+    for (int k = 0; length > 0 && k < 2; k++) {
+        const int whole = snprintf(path, size, "%.*s%s%s", (int)length, from, k ? other : "", name);
+        if (whole >= 0 && (size_t)whole < size && access(path, F_OK) == 0) return true;
+    }
+    return false;
 }

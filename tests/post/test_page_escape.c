@@ -3,7 +3,7 @@
  * bytes that are no UTF-8: the elements of the page are those of a page with plain texts, and each
  * of its data elements is valid JSON. */
 #include "page_fixture.h"
-#include "page_json.h"
+#include "json.h"
 #include "page_text.h"
 
 /* What a text of a page must not do, with a mark that shows where it got to. */

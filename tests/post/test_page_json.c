@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 #include <cmocka.h>
-#include "page_json.h"
+#include "json.h"
 
 static void values(void **unused)
 {

@@ -2,6 +2,7 @@
 /* Describes a case in a text for users. */
 #include "picture_scene.h"
 #include "check.h"
+#include "run.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -477,31 +478,17 @@ static void write_rate(const writer *w, const build *b, double dt)
         rate, dt * rate, 1 / dt);
 }
 
-/* Peak memory of this program so far [bytes]; getrusage() includes the peak of the program that
- * started it. */
-static double peak_memory(void)
-{
-    char line[160];
-    double kib = NAN;
-    FILE *status = fopen("/proc/self/status", "r");
-    while (status && fgets(line, sizeof line, status))
-        if (strncmp(line, "VmHWM:", 6) == 0) kib = strtod(line + 6, NULL);
-    if (status) fclose(status);
-    return 1024 * kib;
-}
-
-/* Peak memory of a run [bytes]: that of its steps, plus the larger of its last picture, which is
- * drawn here, and its page: a frame of all particles with eleven numbers each, their indices by id,
- * and the packed fluid. */
+/* Of a run [bytes]: of its steps, and on top of them the larger one of its last picture, which is drawn here, and of its page: a frame
+ * of all particles with eleven numbers each, their places by id, and what is packed of the fluid. */
 static double find_memory(build *b)
 {
-    const double steps = peak_memory(), all = (double)mps_particles_count(b->sim, -1),
+    const double steps = mps__job_peak_memory(), all = (double)mps_particles_count(b->sim, -1),
                  fluid = (double)mps_particles_count(b->sim, MPS_FLUID);
     const tree_node *output = mps__tree_find(b->root, "output");
     const bool page = mps__read_number(b->c, output, "page", 1) > 0 &&
                       mps__read_number(b->c, output, "frames", 1) > 0;
     is_done(b, mps__scene_rehearse(b->sim));
-    return fmax(peak_memory(), page ? steps + 100 * all + 80 * fluid : 0);
+    return fmax(mps__job_peak_memory(), page ? steps + 100 * all + 80 * fluid : 0);
 }
 
 static void write_cost(const writer *w, build *b)

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Adds columns of probes.csv and figures of summary.json, with their descriptions and positions. */
+/* Adding columns of probes.csv and figures of summary.json, and what each one is and where. */
+#include "grow.h"
 #include "run.h"
 #include <ctype.h>
 #include <stdarg.h>
@@ -74,7 +75,7 @@ static job_column *find_column(const mps_job *job, const char *name)
 
 static job_column *add_column(mps_job *job, const char *name, const char *unit)
 {
-    job_column *grown = mps__job_grown(job->column, job->columns, sizeof *grown);
+    job_column *grown = mps__grown(job->column, job->columns, sizeof *grown);
     if (!grown) {
         mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
         return NULL;
@@ -242,7 +243,7 @@ mps_status mps_job_figure_add(mps_job *job, const char *name, const char *about,
     if (!value || flags < 0 || flags > (MPS_JOB_PARTICLES | MPS_JOB_PRESSURE))
         return mps__job_refuse(job, MPS_E_ARG, "figure '%s': needs a function, and known flags",
                                name);
-    job_figure *grown = mps__job_grown(job->figure, job->figures, sizeof *grown);
+    job_figure *grown = mps__grown(job->figure, job->figures, sizeof *grown);
     if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
     job->figure = grown;
     job_figure *f = &grown[job->figures++];
@@ -256,7 +257,7 @@ mps_status mps_job_figure_add(mps_job *job, const char *name, const char *about,
 
 static mps_status keep_quantity(mps_job *job, quantity *q)
 {
-    quantity **grown = mps__job_grown(job->quantity, job->quantities, sizeof(void *));
+    quantity **grown = mps__grown(job->quantity, job->quantities, sizeof(void *));
     if (!grown) {
         mps__quantity_free(q);
         return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job as its program sees it: creation, texts, references and inputs. The columns are in
- * columns.c and added.c, stepping in stepping.c. */
+/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in stepping.c. */
+#include "grow.h"
 #include "run.h"
 #include <math.h>
 #include <stdarg.h>
@@ -102,12 +102,6 @@ void mps_job_stop(mps_job *job)
 }
 
 /* ---- memory ---- */
-
-void *mps__job_grown(void *array, int count, size_t size)
-{
-    const bool full = (count & (count - 1)) == 0; /* the capacity is a power of two */
-    return full ? realloc(array, (count > 0 ? 2 * (size_t)count : 1) * size) : array;
-}
 
 char *mps__job_copy(const char *text)
 {
@@ -303,7 +297,7 @@ mps_status mps_job_reference_add(mps_job *job, const mps_reference *reference)
         return mps__job_refuse(
             job, MPS_E_ARG, "reference '%s': needs a label, a unit and points with ascending times",
             reference->label ? reference->label : "");
-    job_reference *grown = mps__job_grown(job->reference, job->references, sizeof *grown);
+    job_reference *grown = mps__grown(job->reference, job->references, sizeof *grown);
     if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
     job->reference = grown;
     job_reference *r = &grown[job->references];
@@ -327,7 +321,7 @@ mps_status mps_job_input_add(mps_job *job, const char *key, const char *value)
     if (!job) return MPS_E_ARG;
     if (!key || !key[0] || !value)
         return mps__job_refuse(job, MPS_E_ARG, "an input needs a key and a value");
-    job_input *grown = mps__job_grown(job->input, job->inputs, sizeof *grown);
+    job_input *grown = mps__grown(job->input, job->inputs, sizeof *grown);
     if (!grown) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
     job->input = grown;
     job_input *i = &grown[job->inputs];
@@ -372,7 +366,7 @@ mps_status mps_job_outline_add(mps_job *job, int32_t count, const double *x)
     bool good = count >= 2 && x;
     for (int64_t k = 0; good && k < 2 * (int64_t)count; k++) good = isfinite(x[k]);
     if (!good) return mps__job_refuse(job, MPS_E_ARG, "an outline needs at least two places");
-    job_outline *grown = mps__job_grown(job->outline, job->outlines, sizeof *grown);
+    job_outline *grown = mps__grown(job->outline, job->outlines, sizeof *grown);
     if (grown) job->outline = grown;
     double *copy = grown ? copy_numbers(2 * (int64_t)count, x) : NULL;
     if (!copy) return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");

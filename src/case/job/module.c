@@ -1,24 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loads libraries on demand, so that programs run where these are not installed. */
 #include "run.h"
+#include "run_file.h"
 #include <mps/device.h>
 #include <dlfcn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 void *mps__job_module(const char *name)
 {
-    static const char *const places[] = {"", MODULE_FOLDER};
-    char from[1024], path[1200];
-    ssize_t length = readlink("/proc/self/exe", from, sizeof from);
-    while (length > 0 && from[length - 1] != '/') length--;
-    for (size_t k = 0; length > 0 && k < sizeof places / sizeof *places; k++) {
-        snprintf(path, sizeof path, "%.*s%s%s", (int)length, from, places[k], name);
-        if (access(path, F_OK) == 0) return dlopen(path, RTLD_NOW | RTLD_GLOBAL);
-    }
-    return dlopen(name, RTLD_NOW | RTLD_GLOBAL);
+    char path[1200];
+    const bool found = mps__program_file(name, MODULE_FOLDER, path, sizeof path);
+    return dlopen(found ? path : name, RTLD_NOW | RTLD_GLOBAL);
 }
 
 /* ---- devices ---- */

@@ -19,12 +19,14 @@ static void attach(mps_job *job, table *t)
 {
     if (t == &job->steps) t->each = mps__resume_add_step;
     if (t == &job->probes) t->each = mps__peaks_row;
+    if (t == &job->trace_rows) t->each = mps__trace_keep;
     t->user = t == &job->probes ? (void *)&job->peaks : job;
 }
 
-static bool open_table(mps_job *job, table *t, const char *name, const char *header, int columns)
+bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *header, int columns)
 {
-    const double interval = t == &job->steps ? 0 : job->config.row_interval;
+    const bool each_step = t == &job->steps || t == &job->trace_rows;
+    const double interval = each_step ? 0 : job->config.row_interval;
     bool done = mps__table_create(t, job->place.path, name, columns, interval);
     attach(job, t);
     if (done)
@@ -53,8 +55,8 @@ static char *probes_header(const mps_job *job)
 static bool open_probes(mps_job *job)
 {
     char *header = probes_header(job);
-    const bool done = header ? open_table(job, &job->probes, "probes.csv", header,
-                                          1 + mps__job_columns(job))
+    const bool done = header ? mps__job_open_table(job, &job->probes, "probes.csv", header,
+                                                   1 + mps__job_columns(job))
                              : mps__job_fail(job, MPS_EXIT_FAILED, "out of memory");
     free(header);
     return done;
@@ -73,7 +75,8 @@ static bool open_momentum(mps_job *job)
         for (int k = 0; k < MOMENTUM_COLUMNS; k++)
             used += (size_t)snprintf(header + used, sizeof header - used, ",%s_%c[%s]", MOMENTA[k],
                                      "xyz"[d], job -> dim == 3 ? "N s" : "N s/m");
-    return open_table(job, &job->momentum, "momentum.csv", header, 1 + job->dim * MOMENTUM_COLUMNS);
+    return mps__job_open_table(job, &job->momentum, "momentum.csv", header,
+                               1 + job->dim * MOMENTUM_COLUMNS);
 }
 
 /* Write the case as run. A killed process leaves this file or the one before it. */
@@ -95,7 +98,7 @@ static bool write_case(mps_job *job)
 static bool open_all(mps_job *job)
 {
     return open_probes(job) && open_momentum(job) &&
-           open_table(job, &job->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS) &&
+           mps__job_open_table(job, &job->steps, "steps.csv", STEP_HEADER, STEP_COLUMNS) &&
            mps__trace_open(job);
 }
 

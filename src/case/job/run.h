@@ -110,10 +110,9 @@ struct mps_job {
     job_box walls, liquid; /* in the frame of the tank */
     int32_t phases;        /* highest phase number of the fluid, plus one */
     table probes, steps, momentum, trace_rows;
-    /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step,
-     * with dt = 0 */
-    double *all_rows;
-    int64_t all_count, all_room;
+    double *
+        all_rows; /* of trace.csv, [all_count][trace_rows.columns]; the first is the state before the first step, with dt = 0 */
+    int64_t all_count;
     bool all_failed;
     mps_frames *frames;
     int64_t frame;           /* next frame */
@@ -157,9 +156,7 @@ void mps__job_show(mps_job *job, int32_t kind, const char *text);
 void mps__job_tell(mps_job *job, const char *format, ...);
 /* Record the first failure other than one of a step. @return false on failure */
 bool mps__job_note(mps_job *job, mps_status status, const char *what);
-/* Grow `array` to hold one element after `count`; NULL: memory is exhausted. */
-void *mps__job_grown(void *array, int count, size_t size);
-/* A copy, or NULL; NULL of NULL. */
+/* A copy, or NULL; also of NULL. */
 char *mps__job_copy(const char *text);
 
 /* Load a library from the folder of the program, from its installed folder beside that one, or from
@@ -206,8 +203,9 @@ double mps__job_depth(const mps_job *job);
 void mps__job_measure(mps_job *job, double *values);
 /* Open all tables, or continue them from the checkpoint. @return false: failed */
 bool mps__job_open_tables(mps_job *job);
-/* Record the state before the first step. The files of a continued run contain its row: it is only
- * used to interpolate the next one. */
+/* Open a table, or continue with its rows. @return false: the job has failed */
+bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *header, int columns);
+/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
 void mps__job_first_rows(mps_job *job);
 /* Record a row at t. */
 void mps__job_sample(mps_job *job, double t);
@@ -219,7 +217,9 @@ void mps__job_write_start(mps_job *job, const double *first);
 
 /* Open or continue trace.csv, if it is requested. @return false: failed */
 bool mps__trace_open(mps_job *job);
-/* Record a row of trace.csv. */
+/* A table_row_fn for trace.csv: keep a row in memory. */
+void mps__trace_keep(void *job, const double *row);
+/* Take a row of it. */
 void mps__trace_step(mps_job *job, double t, double dt);
 
 /* ---- resume.c ---- */
@@ -276,8 +276,9 @@ void mps__drawing_end(mps_job *job, mps_status status);
 const table *mps__job_failed_table(const mps_job *job);
 /* All work after the last step. @param wall_s,cpu_s  times up to it [s] @return exit code */
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
-/* Write summary.json; that of an unfinished run before totals.status is set.
- * @return false: it could not be written, job->error is the reason */
+/* Largest memory of this process so far [bytes]; NAN: not known. */
+double mps__job_peak_memory(void);
+/* summary.json; before totals.status is set, that of a run that is unfinished. @return false: it could not be written, job->error says why */
 bool mps__summary_save(mps_job *job);
 /* Write report.html, if it is requested.
  * @return false: it could not be written, job->error is the reason */

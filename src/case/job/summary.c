@@ -1,7 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* summary.json: one flat object for programs, with lists of columns of probes.csv, figures, inputs,
- * references and phases. */
-#include "plain.h"
+/* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures, inputs, references, phases. */
+#include "escape.h"
 #include "run.h"
 #include <errno.h>
 #include <math.h>
@@ -14,12 +13,8 @@
 
 static void json_string(FILE *out, const char *text)
 {
-    char character[8];
     fputc('"', out);
-    while (*text) {
-        text += mps__json_character(text, character);
-        fputs(character, out);
-    }
+    mps__put_escaped(out, text, mps__json_character);
     fputc('"', out);
 }
 
@@ -57,9 +52,8 @@ static void summary_counts(FILE *out, const mps_job *job)
     if (job->config.device) json_text(out, "device", job->config.device);
 }
 
-/* Peak memory of this program [bytes]. getrusage() includes the peak of the program that started
- * it. */
-static double peak_memory(void)
+/* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the program that started it. */
+double mps__job_peak_memory(void)
 {
     char line[160];
     double kib = NAN;
@@ -87,7 +81,7 @@ static void summary_times(FILE *out, const mps_job *job)
     json_number(out, "neighbour_s", s->seconds[MPS_STAGE_NEIGHBOURS]);
     json_number(out, "operators_s",
                 s->seconds[MPS_STAGE_OPERATORS] + s->seconds[MPS_STAGE_CORRECT]);
-    json_number(out, "peak_rss_bytes", peak_memory());
+    json_number(out, "peak_rss_bytes", mps__job_peak_memory());
 }
 
 /* The averaging window of pressures [s]. */

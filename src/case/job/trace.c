@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* trace.csv: the added columns after every step, without interpolation, and integrals, means,
- * extremes and slopes of them. An impact lasts a few steps: rows at fixed times would miss it. */
+/* trace.csv: the added columns after every step, with no interpolation, and integrals, means, extremes and slopes of them. Impacts last a few
+ * steps: rows at fixed times would miss them. */
+#include "grow.h"
 #include "run.h"
 #include <math.h>
 #include <stdio.h>
@@ -16,7 +17,6 @@ enum {
     TRACE_WALLS = TRACE_MOMENTUM + 3,
     TRACE_OWN = TRACE_WALLS + 3
 };
-enum { TRACE_ROOM = 1024 };
 
 /* Relative tolerance of the end of a measure: a run ends within rounding of its time. */
 static const double SLACK = 1e-9;
@@ -26,36 +26,18 @@ static const char *const FLOW[] = {"momentum_x", "momentum_y", "momentum_z",
 
 /* ---- rows ---- */
 
-/* Keep a row; also a table_row_fn, for the rows of a continued file. */
-static void keep_row(void *user, const double *row)
+/* Keep a row; a table_row_fn as well, for the rows of the file that a run goes on with. */
+void mps__trace_keep(void *user, const double *row)
 {
     mps_job *job = user;
     const int columns = job->trace_rows.columns;
-    if (job->all_count == job->all_room) {
-        const int64_t room = job->all_room > 0 ? 2 * job->all_room : TRACE_ROOM;
-        double *grown = realloc(job->all_rows, (size_t)(room * columns) * sizeof *grown);
-        if (!grown) {
-            job->all_failed = true;
-            return;
-        }
-        job->all_rows = grown;
-        job->all_room = room;
+    double *grown = mps__grown(job->all_rows, job->all_count, (size_t)columns * sizeof *grown);
+    if (!grown) {
+        job->all_failed = true;
+        return;
     }
+    job->all_rows = grown;
     memcpy(job->all_rows + job->all_count++ * columns, row, (size_t)columns * sizeof *row);
-}
-
-static bool open_file(mps_job *job, const char *header)
-{
-    table *t = &job->trace_rows;
-    bool done = mps__table_create(t, job->place.path, "trace.csv", TRACE_OWN + job->columns, 0);
-    t->each = keep_row;
-    t->user = job;
-    if (done)
-        done = job->config.resume ? mps__table_resume(t, header, job->totals.t_before)
-                                  : mps__table_begin(t, header);
-    if (done) return true;
-    if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
-    return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
 }
 
 bool mps__trace_open(mps_job *job)
@@ -71,7 +53,8 @@ bool mps__trace_open(mps_job *job)
     for (int k = 0; k < job->columns; k++)
         used += (size_t)snprintf(header + used, size - used, ",%s[%s]", job->column[k].name,
                                  job->column[k].unit);
-    const bool done = open_file(job, header);
+    const bool done = mps__job_open_table(job, &job->trace_rows, "trace.csv", header,
+                                          TRACE_OWN + job->columns);
     free(header);
     return done;
 }
@@ -95,7 +78,7 @@ void mps__trace_step(mps_job *job, double t, double dt)
     for (int k = 0; k < job->columns; k++)
         if (dt == 0 && job->column[k].flags & MPS_JOB_PRESSURE) row[TRACE_OWN + k] = 0;
     mps__table_append(&job->trace_rows, row);
-    keep_row(job, row);
+    mps__trace_keep(job, row);
 }
 
 /* ---- figures ---- */
@@ -247,7 +230,7 @@ mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace)
     if (!given && column < 0)
         return mps__job_refuse(job, MPS_E_NAME, "figure '%s': no column '%s'", name,
                                trace->column ? trace->column : "");
-    trace_figure **grown = mps__job_grown(job->trace, job->traces, sizeof(void *)),
+    trace_figure **grown = mps__grown(job->trace, job->traces, sizeof(void *)),
                  *f = malloc(sizeof *f);
     if (grown) job->trace = grown;
     if (!grown || !f) {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Searches keys in the table, and words of similar spelling. */
 #include "keys.h"
+#include "words.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -95,42 +96,15 @@ bool mps__key_dotted(const mps__key *key)
     return key->shape == SHAPE_PATHS || strcmp(key->path, "settings") == 0;
 }
 
-static int32_t least(int32_t a, int32_t b)
-{
-    return a < b ? a : b;
-}
-
 enum { WORD_ROOM = 40 };
-
-/* Damerau edit distance of two words: letters to change, insert, remove or exchange with the
- * next. */
-static int32_t word_distance(const char *a, const char *b)
-{
-    const int32_t n = (int32_t)strlen(a), m = (int32_t)strlen(b);
-    int32_t rows[3][WORD_ROOM + 1], *last = rows[0], *now = rows[1], *before = rows[2];
-    if (n > WORD_ROOM || m > WORD_ROOM) return WORD_ROOM;
-    for (int32_t j = 0; j <= m; j++) now[j] = before[j] = last[j] = j;
-    for (int32_t i = 1; i <= n; i++) {
-        int32_t *spare = before;
-        before = last;
-        last = now;
-        now = spare;
-        now[0] = i;
-        for (int32_t j = 1; j <= m; j++) {
-            now[j] = least(least(now[j - 1], last[j]) + 1, last[j - 1] + (a[i - 1] != b[j - 1]));
-            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                now[j] = least(now[j], before[j - 2] + 1);
-        }
-    }
-    return now[m];
-}
 
 bool mps__words_near(const char *a, const char *b, int32_t *distance)
 {
     size_t same = 0;
     const size_t la = strlen(a), lb = strlen(b);
     while (a[same] && a[same] == b[same]) same++;
-    *distance = word_distance(a, b);
+    const size_t edits = mps__word_distance(a, b);
+    *distance = edits < WORD_ROOM ? (int32_t)edits : WORD_ROOM;
     if (*distance <= 2 && (size_t)*distance < (la > lb ? la : lb)) return true;
     *distance += WORD_ROOM; /* a common prefix ranks after a small distance */
     return same >= 3 && (same == la || same == lb);

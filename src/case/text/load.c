@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Reads case files with the files that they include, and pages that contain a case. */
+/* Case files and the files below them, pages that carry a case, and the calls that read a case. */
+#include "run_file.h"
 #include "tree.h"
 #include <errno.h>
 #include <limits.h>
@@ -68,32 +69,17 @@ static void refuse_file(mps_case *c, const char *path, const tree_node *from, co
     mps__case_fail(c, (mps__place){source < 0 ? 0 : source, 0, 0}, "it cannot be read: %s", why);
 }
 
-/* Read a whole file into malloc'd memory with a terminating 0. */
-static char *read_all(FILE *file, size_t size, size_t *got)
-{
-    char *text = malloc(size + 1);
-    if (!text) return NULL;
-    *got = fread(text, 1, size, file);
-    text[*got] = '\0';
-    return text;
-}
-
 static char *read_file(mps_case *c, const char *path, const tree_node *from, size_t *size)
 {
-    struct stat s;
-    FILE *file = fopen(path, "rb");
-    const size_t most = is_page(path) ? PAGE_BYTES : TREE_BYTES;
-    char *text = NULL;
-    if (!file && errno == ENOMEM)
+    const char *why;
+    FILE *file = mps__run_open(NULL, path, &why);
+    char *text = file ? mps__file_read(file, is_page(path) ? PAGE_BYTES : TREE_BYTES, size) : NULL;
+    if (!text && errno == ENOMEM)
         c->no_memory = true;
-    else if (!file || fstat(fileno(file), &s) != 0)
-        refuse_file(c, path, from, strerror(errno));
-    else if (!S_ISREG(s.st_mode))
-        refuse_file(c, path, from, "it is no file");
-    else if ((unsigned long long)s.st_size > most)
+    else if (!text && errno == EFBIG)
         refuse_file(c, path, from, "it is larger than 1 MB; a case file is a text");
-    else if ((text = read_all(file, (size_t)s.st_size, size)) == NULL)
-        c->no_memory = true;
+    else if (!text)
+        refuse_file(c, path, from, why ? why : strerror(errno));
     if (file) fclose(file);
     return text;
 }

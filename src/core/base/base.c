@@ -2,6 +2,7 @@
 /* Memory, errors, log, names. */
 #define _POSIX_C_SOURCE 200809L
 #include "base.h"
+#include "words.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -111,33 +112,13 @@ void mps__log(mps__context *c, int level, const char *format, ...)
     c->logs = false;
 }
 
-/* Levenshtein distance; names are short. */
-static int edit_distance(const char *a, const char *b)
-{
-    int row[MPS__NAME_SIZE + 1];
-    size_t lb = strnlen(b, MPS__NAME_SIZE);
-    for (size_t j = 0; j <= lb; j++) row[j] = (int)j;
-    for (size_t i = 1; a[i - 1]; i++) {
-        int diagonal = row[0];
-        row[0] = (int)i;
-        for (size_t j = 1; j <= lb; j++) {
-            int best = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = row[j];
-            if (row[j] + 1 < best) best = row[j] + 1;
-            if (row[j - 1] + 1 < best) best = row[j - 1] + 1;
-            row[j] = best;
-        }
-    }
-    return row[lb];
-}
-
 const char *mps__near(const char *name, const char *const *names, int count)
 {
     const char *best = NULL;
     /* near: at most one error, plus one for every four letters */
-    int least = 2 + (int)(strnlen(name, MPS__ERROR_SIZE) / 4);
+    size_t least = 2 + strnlen(name, MPS__ERROR_SIZE) / 4;
     for (int k = 0; k < count; k++) {
-        int d = edit_distance(name, names[k]);
+        const size_t d = mps__word_distance(name, names[k]);
         if (d < least) {
             least = d;
             best = names[k];

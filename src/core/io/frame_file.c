@@ -2,6 +2,7 @@
 /* One frame for ParaView: XML PolyData (.vtp) with appended raw data, and the list of the ranks'
  * pieces (.pvtp). */
 #include "frame_file.h"
+#include "escape.h"
 #include "gather.h"
 #include <string.h>
 
@@ -37,26 +38,6 @@ typedef struct frame {
     int32_t columns;
     column column[COLUMNS];
 } frame;
-
-static void print_escaped(FILE *file, const char *text)
-{
-    for (; *text; text++) switch (*text) {
-        case '&':
-            fputs("&amp;", file);
-            break;
-        case '<':
-            fputs("&lt;", file);
-            break;
-        case '>':
-            fputs("&gt;", file);
-            break;
-        case '"':
-            fputs("&quot;", file);
-            break;
-        default:
-            fputc((unsigned char)*text < 0x20 ? '_' : *text, file);
-        }
-}
 
 const char *mps__frame_byte_order(void)
 {
@@ -127,7 +108,7 @@ static uint64_t column_bytes(const frame *f, const column *c)
 static void print_array(frame *f, const char *name, const char *type, int32_t width, uint64_t bytes)
 {
     fprintf(f->file, "<DataArray type=\"%s\" Name=\"", type);
-    print_escaped(f->file, name);
+    mps__put_escaped(f->file, name, mps__xml_character);
     fprintf(f->file, "\" NumberOfComponents=\"%d\" format=\"appended\" offset=\"%llu\"/>\n",
             (int)width, (unsigned long long)f->offset);
     f->offset += sizeof(uint64_t) + bytes;
@@ -277,7 +258,7 @@ void mps__frame_write(const mps__world *world, int32_t kinds, FILE *file)
 static void print_piece_array(FILE *file, const column *c)
 {
     fprintf(file, "<PDataArray type=\"%s\" Name=\"", stored_type[c->type].name);
-    print_escaped(file, c->name);
+    mps__put_escaped(file, c->name, mps__xml_character);
     fprintf(file, "\" NumberOfComponents=\"%d\"/>\n", (int)c->width);
 }
 

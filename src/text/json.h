@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A strict reader of JSON (RFC 8259). A library would do if it reported each failed allocation:
- * jansson 2.14 then silently drops characters of a text. */
-#ifndef MPS_POST_PAGE_JSON_H
-#define MPS_POST_PAGE_JSON_H
+/* A strict reader of JSON (RFC 8259). It reports each allocation that fails; jansson 2.14 does not,
+ * and returns a text without some of its characters. */
+#ifndef MPS_TEXT_JSON_H
+#define MPS_TEXT_JSON_H
 
 #include <stdbool.h>
 #include <stddef.h>
@@ -46,6 +46,8 @@ size_t mps__json_count(const json_value *list);
 double mps__json_number(const json_value *value);
 /* A text; NULL: the value is no text. */
 const char *mps__json_text(const json_value *value);
+/* The text of a member of an object; "": there is none. */
+const char *mps__json_member(const json_value *object, const char *key);
 bool mps__json_true(const json_value *value);
 
 #endif

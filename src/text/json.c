@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-#include "page_json.h"
+#include "json.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -275,6 +275,12 @@ double mps__json_number(const json_value *value)
 const char *mps__json_text(const json_value *value)
 {
     return value && value->type == JSON_TEXT ? value->text : NULL;
+}
+
+const char *mps__json_member(const json_value *object, const char *key)
+{
+    const char *text = mps__json_text(mps__json_get(object, key));
+    return text ? text : "";
 }
 
 bool mps__json_true(const json_value *value)
