@@ -309,7 +309,11 @@ static void rows_of_sensors(void **state)
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m], cells: 2}\n" END, 7,
                    "sensors.P.panel: 1 points, 2 to 4 are wanted");
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 1 0.5 0.5 m], cells: 2}\n" END, 7,
-                   "of an inclined one give three corners");
+                   "of an inclined one give three corners in turn");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 m, 0 0.3 m], cells: 2}\n" END, 7,
+                   "sensors.P.panel: a corner needs x, y and z in 3-D");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 0 0.3 0.1 m], cells: 2}\n" END, 7,
+                   "two points in 3-D are opposite corners, which differ along two axes");
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 0 0.5 0.5 m], cells: 40 40}\n" END, 7,
                    "sensors.P.cells: more than 1000 in all");
     sensor_refused(TOP BOX "sensors:\n  P: {row: [0 0.1 m], cells: 2}\n" END, 6,

@@ -145,6 +145,8 @@ static void write_tank(const writer *w, const build *b)
     for (int d = 0; d < b->dim && b->tank.built[0] > 0; d++)
         if (fabs(b->tank.built[d] - b->tank.size[d]) > 1e-6 * b->dp)
             fprintf(w->file, "; built %.5g m along %c", b->tank.built[d], "xyz"[d]);
+    if (b->dim == 2 && b->tank.size[2] > 0 && !mps__tree_find(b->root, "dim"))
+        fprintf(w->file, "; in 2-D the third number of 'size' is not used, 'dim: 3' uses it");
     fprintf(w->file, "\n");
     for (int32_t i = 0; i < b->solids; i++) {
         mps__check_heading(w, i ? "" : "solids");

@@ -244,5 +244,6 @@ void mps__check(mps_case *c, tree_node *root)
     mps__plugins_load(c, root);
     mps__check_models(c, root);
     mps__check_sweep(c, root);
+    mps__check_columns(c, root);
     forget_reads(root);
 }
