@@ -125,8 +125,9 @@ static void near_keys(void **state)
     said(HEAD BODY "model: imsp\n", NULL, "no preset of models 'imsp'; did you mean 'imps'?");
     said(HEAD BODY "model: sph\n", NULL, "no preset of models 'sph'; there are imps");
     said(HEAD BODY "use: drag.cubic\n", NULL, "no model 'drag.cubic'; 'mps list models'");
-    said(HEAD BODY "run: {until: 1 s, solver: foo}\n", NULL,
-         "run.solver: no pressure solver 'foo'; there are ");
+    said(HEAD BODY "kernel: {name: foo}\n", NULL, "kernel.name: no kernel 'foo'; there are ");
+    static const char *const solver[] = {"run.solver=foo", NULL};
+    said(HEAD BODY, solver, "run.solver: no pressure solver 'foo'; there are ");
     said(HEAD BODY "use: viscosity.pairs\n", NULL, "did you mean 'viscosity.pair'?");
     said(HEAD BODY "remove: [colision]\n", NULL, "did you mean 'collision'?");
     said(HEAD BODY "settings: {gas.sound: 5 Pa}\n", NULL,
