@@ -55,7 +55,7 @@ static bool open_file(mps_job *job, const char *header)
                                   : mps__table_begin(t, header);
     if (done) return true;
     if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
-    return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
+    return mps__job_fail(job, MPS_EXIT_USAGE, "resume: %s; " RESUME_ANEW, t->why);
 }
 
 bool mps__trace_open(mps_job *job)
