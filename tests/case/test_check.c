@@ -229,6 +229,17 @@ static void rates(void **state)
           NULL);
 }
 
+static void shallow(void **state)
+{
+    (void)state;
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 3 mm}}]\n"
+          "run: {until: 1 s}\n",
+          "the liquid is only 0.15 spacings deep: no wave is resolved; give a finer dp", NULL);
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 60 mm}}]\n"
+          "run: {until: 1 s}\n",
+          NULL, "spacings deep");
+}
+
 /* How often there are frames, and what a static pressure below gas is off by: half a spacing of 20 mm. */
 static void frames_and_gas(void **state)
 {
@@ -371,13 +382,11 @@ static void drawings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes),  cmocka_unit_test(files),
-        cmocka_unit_test(plates),   cmocka_unit_test(as_built),
-        cmocka_unit_test(sensors),  cmocka_unit_test(columns),
-        cmocka_unit_test(forces),   cmocka_unit_test(motions),
-        cmocka_unit_test(bare),     cmocka_unit_test(periods),
-        cmocka_unit_test(top_rows), cmocka_unit_test(costs),
-        cmocka_unit_test(rates),    cmocka_unit_test(frames_and_gas),
+        cmocka_unit_test(volumes),  cmocka_unit_test(files),          cmocka_unit_test(plates),
+        cmocka_unit_test(as_built), cmocka_unit_test(sensors),        cmocka_unit_test(columns),
+        cmocka_unit_test(forces),   cmocka_unit_test(motions),        cmocka_unit_test(bare),
+        cmocka_unit_test(periods),  cmocka_unit_test(top_rows),       cmocka_unit_test(costs),
+        cmocka_unit_test(rates),    cmocka_unit_test(frames_and_gas), cmocka_unit_test(shallow),
         cmocka_unit_test(drawings), cmocka_unit_test(uniform_motions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

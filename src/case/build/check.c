@@ -206,6 +206,16 @@ static bool find_rows(build *b, top_rows *r)
     return good && r->top > 0 && r->below > 0;
 }
 
+/* A film of less than three rows is no liquid with waves: mostly its unit, or that of dp, is wrong. */
+static void write_rows(const writer *w, const build *b)
+{
+    if (!(b->depth < 3 * b->dp)) return;
+    mps__check_heading(w, "");
+    fprintf(w->file,
+            "the liquid is only %.2g spacings deep: no wave is resolved; give a finer dp\n",
+            b->depth / b->dp);
+}
+
 /* A level between two rows leaves the uppermost one with the particles that the volume asks for, in
  * groups or beside walls: steps in the surface. Measured in boxes of 4 and 20 rows, 2-D and 3-D, and
  * in a polygon of 3.6 rows: the level of the pressures is off by up to .39 rows at the start and by
@@ -255,6 +265,7 @@ static void write_fluids(const writer *w, build *b)
         mps__check_heading(w, "level");
         fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
                 b->tank.form.lo[1] + b->depth);
+        write_rows(w, b);
         write_top(w, b);
     }
 }
