@@ -273,6 +273,8 @@ static const tree_node *below(const tree_node *root, const char *map, const char
 /* All that names something of libmps or of a plug-in. */
 enum { MODEL, USE, REMOVE, SETTINGS, SOLVER, PRECONDITIONER, KERNEL, LOAD, MOTION, NAMES };
 
+enum { KINDS_USED = 5 }; /* of names that plug-ins bring */
+
 static void find_names(const tree_node *root, const tree_node *names[NAMES])
 {
     const tree_node *load = below(root, "body", "load");
@@ -313,8 +315,8 @@ void mps__check_models(mps_case *c, tree_node *root)
     check_drive(c, names[MOTION], MPS_PLUGIN_MOTION);
     if (names[SETTINGS] && names[SETTINGS]->kind == TREE_MAP)
         for (tree_node *n = names[SETTINGS]->first; n; n = n->next) check_setting(c, sim, n);
-    const tree_node *used[] = {names[USE], names[SOLVER], names[PRECONDITIONER], names[LOAD],
-                               names[MOTION]};
-    warn_of_unused(c, used, sizeof used / sizeof *used);
+    const tree_node *used[KINDS_USED] = {names[USE], names[SOLVER], names[PRECONDITIONER],
+                                         names[LOAD], names[MOTION]};
+    warn_of_unused(c, used, KINDS_USED);
     mps_sim_destroy(sim);
 }
