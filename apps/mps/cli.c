@@ -118,8 +118,11 @@ static int take(choices *c, const option *o, const char *value)
     }
     if (o->kind == OPTION_COUNT) {
         const long count = strtol(value, &end, 10);
-        if (end == value || *end || count < 1 || count > COUNT_MOST)
-            return refuse(c, value, "must be a whole number, 1 to 1024");
+        if (end == value || *end || count < 1 || count > COUNT_MOST) {
+            char what[48];
+            snprintf(what, sizeof what, "%s %.16s", o->name, value);
+            return refuse(c, what, "must be a whole number, 1 to 1024");
+        }
         *(int32_t *)place = (int32_t)count;
     }
     return -1;

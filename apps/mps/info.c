@@ -79,7 +79,7 @@ static bool tell_checkpoint(const head *h)
                 (void)(read_number(h, &p, "state.t", &t) ||
                        read_number(h, &p, "state.step", &step));
             if (pass == 1)
-                printf("  %-24s %lld of %u bytes\n", p.title, (long long)p.elements,
+                printf("  %-24s %lld numbers of %u bytes\n", p.title, (long long)p.elements,
                        (unsigned)p.bytes);
             if (fseek(h->file, (long)length_of(&p), SEEK_CUR) != 0) break;
         }

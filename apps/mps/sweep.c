@@ -108,7 +108,10 @@ static int write_table(const sweep *s)
     if (out) write_names(s, out, first);
     for (int64_t i = 0; out && i < s->p.runs; i++) write_run(s, out, i, first);
     mps_table_destroy(first);
-    return collect_close(s->p.c->verb, out, path);
+    const int code = collect_close(s->p.c->verb, out, path);
+    if (code == MPS_EXIT_OK && !s->p.c->quiet)
+        fprintf(stderr, "mps %s: table of the runs: %s\n", s->p.c->verb, path);
+    return code;
 }
 
 /* ---- the runs ---- */

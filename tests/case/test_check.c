@@ -231,8 +231,30 @@ static void rates(void **state)
           NULL);
 }
 
-/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a
- * fall through it. */
+static void shallow(void **state)
+{
+    (void)state;
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 3 mm}}]\n"
+          "run: {until: 1 s}\n",
+          "the liquid is only 0.15 spacings deep: no wave is resolved; give a finer dp", NULL);
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 60 mm}}]\n"
+          "run: {until: 1 s}\n",
+          NULL, "spacings deep");
+}
+
+/* How often there are frames, and what a static pressure below gas is off by: half a spacing of 20 mm. */
+static void frames_and_gas(void **state)
+{
+    static const char text[] =
+        "mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.2 m}}, {air: rest}]\n"
+        "motion: {surge: {amplitude: 10 mm, period: 1 s, ramp: 1}}\n"
+        "sensors: {P: {wall: 0 0.1 m}}\nrun: {until: 10 s}\n";
+    (void)state;
+    tells(text, "frames    200, every 0.05 s, 20 a period of the motion", NULL);
+    tells(text, "static pressures in the liquid are 98 Pa too high: with gas above it", NULL);
+}
+
+/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a fall through it. */
 static void costs(void **state)
 {
     (void)state;
@@ -363,10 +385,11 @@ static void drawings(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes),  cmocka_unit_test(files),    cmocka_unit_test(plates),
-        cmocka_unit_test(as_built), cmocka_unit_test(sensors),  cmocka_unit_test(columns),
-        cmocka_unit_test(forces),   cmocka_unit_test(motions),  cmocka_unit_test(bare),
-        cmocka_unit_test(periods),  cmocka_unit_test(top_rows), cmocka_unit_test(costs),
-        cmocka_unit_test(rates),    cmocka_unit_test(drawings), cmocka_unit_test(uniform_motions)};
+        cmocka_unit_test(volumes),  cmocka_unit_test(files),          cmocka_unit_test(plates),
+        cmocka_unit_test(as_built), cmocka_unit_test(sensors),        cmocka_unit_test(columns),
+        cmocka_unit_test(forces),   cmocka_unit_test(motions),        cmocka_unit_test(bare),
+        cmocka_unit_test(periods),  cmocka_unit_test(top_rows),       cmocka_unit_test(costs),
+        cmocka_unit_test(rates),    cmocka_unit_test(frames_and_gas), cmocka_unit_test(shallow),
+        cmocka_unit_test(drawings), cmocka_unit_test(uniform_motions)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -128,7 +128,7 @@ static void wrong_sets(void **state)
     wrong_set("run.until", "path=value is wanted");
     wrong_set("=3", "path=value is wanted");
     wrong_set("", "path=value is wanted");
-    wrong_set("run.until=", "nothing in it");
+    wrong_set("run.until=", "there is no value behind 'run.until='");
     wrong_set("run.until=[", "no YAML");
     wrong_set("run.until.x=3", "nothing is below 'until'");
     wrong_set("fill.9.depth=3 m", "there is no element 9");
@@ -287,8 +287,10 @@ static void sweeps(void **state)
     assert_int_equal(mps_case_sweep_count(c), 0);
     assert_int_equal(mps_case_sweep_get(c, 0, 0, text, sizeof text), MPS_E_ARG);
     mps_case_destroy(c);
-    kit_refused(CASE "sweep: {dpp: 4 8 mm}\n", 7, 9, "'dpp' is no path of a value");
-    kit_refused(CASE "sweep: {tank: 4 8 mm}\n", 7, 9, "no path of a value");
+    kit_refused(CASE "sweep: {dpp: 4 8 mm}\n", 7, 9,
+                "'dpp' is no path of a value; did you mean 'dp'?");
+    kit_refused(CASE "sweep: {tank: 4 8 mm}\n", 7, 9,
+                "'tank' is no path of a value, as 'motion.roll.period'");
     kit_refused(CASE "sweep: {dp: 4 8 s}\n", 7, 13, "is the unit of a time");
     kit_refused(CASE "sweep: {dp: 2 to 1 step 1 mm}\n", 7, 13, "values are wanted");
     kit_refused(CASE "sweep: {model: [imps, nothing, 3]}\nsweeps: 1\n", 8, 1,

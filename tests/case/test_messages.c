@@ -94,6 +94,26 @@ static void twenty_at_most(void **state)
     mps_case_destroy(c);
 }
 
+/* 'collect' names sensors or columns of each run; no sensor has the name of such a column. */
+static void column_names(void **state)
+{
+#define SENSORS "sensors: {P: {wall: 0 50 mm}, F: {force: tank}}\n"
+    (void)state;
+    accepted(HEAD BODY SENSORS "collect: [P.max, F.harmonic, F_x.p3h, ke.max, wall_work.last]\n",
+             NULL);
+    accepted(HEAD BODY SENSORS "collect: [roll.harmonic, body_liquid_roll.max]\n", NULL);
+    accepted(HEAD BODY "sensors: {surge: {wall: 0 50 mm}}\n", NULL);
+    said(HEAD BODY SENSORS "collect: [P.max, Q.max]\n", NULL,
+         "collect: no sensor is 'Q'; there are P, F");
+    said(HEAD BODY "collect: Q.max\n", NULL, "collect: no sensor is 'Q'\n");
+    said(HEAD BODY "sensors: {ke: {wall: 0 50 mm}}\n", NULL,
+         "sensors.ke: probes.csv has a column 'ke', which each run writes; choose another name");
+    said(HEAD BODY "sensors: {t: {wall: 0 50 mm}}\n", NULL, "has a column 't'");
+    said(HEAD BODY "motion: {roll: {amplitude: 1 deg, period: 1 T1}}\n"
+                   "sensors: {roll: {wall: 0 50 mm}}\n",
+         NULL, "sensors.roll: probes.csv has a column 'roll', of the motion");
+}
+
 static void near_keys(void **state)
 {
     (void)state;
@@ -104,6 +124,11 @@ static void near_keys(void **state)
          "unknown key 'output.checkpoint'; 'checkpoint' is a key of 'run'");
     said(HEAD BODY "xyzzy: 3\n", NULL, "unknown key 'xyzzy'\n");
     said(HEAD BODY "model: imsp\n", NULL, "no preset of models 'imsp'; did you mean 'imps'?");
+    said(HEAD BODY "model: sph\n", NULL, "no preset of models 'sph'; there are imps");
+    said(HEAD BODY "use: drag.cubic\n", NULL, "no model 'drag.cubic'; 'mps list models'");
+    said(HEAD BODY "kernel: {name: foo}\n", NULL, "kernel.name: no kernel 'foo'; there are ");
+    static const char *const solver[] = {"run.solver=foo", NULL};
+    said(HEAD BODY, solver, "run.solver: no pressure solver 'foo'; there are ");
     said(HEAD BODY "use: viscosity.pairs\n", NULL, "did you mean 'viscosity.pair'?");
     said(HEAD BODY "remove: [colision]\n", NULL, "did you mean 'collision'?");
     said(HEAD BODY "settings: {gas.sound: 5 Pa}\n", NULL,
@@ -193,8 +218,9 @@ static void arguments(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(printed),   cmocka_unit_test(columns), cmocka_unit_test(twenty_at_most),
-        cmocka_unit_test(near_keys), cmocka_unit_test(rules),   cmocka_unit_test(json),
-        cmocka_unit_test(arguments)};
+        cmocka_unit_test(printed),        cmocka_unit_test(columns),
+        cmocka_unit_test(twenty_at_most), cmocka_unit_test(column_names),
+        cmocka_unit_test(near_keys),      cmocka_unit_test(rules),
+        cmocka_unit_test(json),           cmocka_unit_test(arguments)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

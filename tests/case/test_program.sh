@@ -250,8 +250,9 @@ expect 2 "use 'mps run'" "$program" sweep single.yaml -o none -q
 expect 2 "max, min, mean, last" "$program" sweep sweep.yaml --set "collect=[P_left.most]" -o none -q
 expect 2 "must be 2 to" "$program" repeat single.yaml -n 1 -o none -q
 [ -e none ] && fail "a refused series made a folder"
-expect 2 "no column of probes.csv is 'P_no'" "$program" sweep sweep.yaml --set "collect=[P_no.max]" -o no_column -q
-[ -e no_column/002 ] && fail "an unknown column did not end the sweep"
+expect 2 "collect: no sensor is 'P_no'; there are P_left" "$program" sweep sweep.yaml --set "collect=[P_no.max]" -o no_column -q
+expect 2 "no column of probes.csv is 'heave'" "$program" sweep sweep.yaml --set "collect=[heave.max]" -o no_heave -q
+[ -e no_column ] || [ -e no_heave/002 ] && fail "an unknown column did not end the sweep"
 expect 0 "run 4 of 4: motion.surge.period=1 T1 motion.surge.amplitude=20 mm" "$program" sweep sweep.yaml -o swept
 [ "$(wc -l < swept/sweep.csv)" -eq 5 ] || fail "sweep.csv: $(cat swept/sweep.csv)"
 head -1 swept/sweep.csv | grep -q '^run,motion.surge.period,motion.surge.amplitude,motion.surge.period.si\[s\],motion.surge.amplitude.si\[m\],exit,P_left.max\[Pa\],F_x.last\[N/m\],' ||

@@ -193,7 +193,7 @@ static void one_is_refused(void **state)
     s = (scene){.folder = "empty", .resume = 1};
     run(&s, RANKS, -1);
     for (int32_t r = 0; r < RANKS; r++) assert_int_equal(s.seat[r].code, MPS_EXIT_USAGE);
-    assert_non_null(strstr(s.seat[0].said, "--resume: "));
+    assert_non_null(strstr(s.seat[0].said, "resume: "));
     assert_string_equal(s.seat[1].said, "");
 }
 

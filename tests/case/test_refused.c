@@ -125,7 +125,7 @@ static void shapes(void **state)
     built_refused(TOP "tank: {sphere: {radius: 1 m}, open: top}\n" WATER END, 3,
                   "tank.open: only a rectangular tank can be open at its top");
     built_refused(DEEP "tank: {stl: " CASES "cube.stl}\n" WATER END, 4,
-                  "tank.stl: 'unit' is missing beside it");
+                  "tank.stl: 'unit' is missing beside it, e.g. 'unit: mm'");
     built_refused(DEEP "tank: {stl: " CASES
                        "cube.stl, unit: m, up: z, turn: 0 90 0 deg}\n" WATER END,
                   4, "give 'up' or 'turn', not both");
@@ -157,7 +157,7 @@ static void shapes(void **state)
     built_refused(SOLIDS "{prism: [0 0 m, 0.1 0 m]}\n" END, 6,
                   "solids.s.prism: 2 points, 3 to 1000 are wanted");
     built_refused(SOLIDS "{stl: " CASES "cube.stl}\n" END, 6,
-                  "solids.s.stl: 'unit' is missing beside it");
+                  "solids.s.stl: 'unit' is missing beside it, e.g. 'unit: mm'");
     built_refused(SPACE
                   "solids:\n  s: {cylinder: {from: 1 0 0 m, to: 1 0 0 m, radius: 0.3 m}}\n" END,
                   7, "solids.s.cylinder: has no length: 'from' and 'to' are one point");
@@ -309,7 +309,11 @@ static void rows_of_sensors(void **state)
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m], cells: 2}\n" END, 7,
                    "sensors.P.panel: 1 points, 2 to 4 are wanted");
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 1 0.5 0.5 m], cells: 2}\n" END, 7,
-                   "of an inclined one give three corners");
+                   "of an inclined one give three corners in turn");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 m, 0 0.3 m], cells: 2}\n" END, 7,
+                   "sensors.P.panel: a corner needs x, y and z in 3-D");
+    sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 0 0.3 0.1 m], cells: 2}\n" END, 7,
+                   "two points in 3-D are opposite corners, which differ along two axes");
     sensor_refused(DEEP_SENSOR "{panel: [0 0.1 0.1 m, 0 0.5 0.5 m], cells: 40 40}\n" END, 7,
                    "sensors.P.cells: more than 1000 in all");
     sensor_refused(TOP BOX "sensors:\n  P: {row: [0 0.1 m], cells: 2}\n" END, 6,

@@ -203,6 +203,14 @@ static void motions(void **state)
     same_number(t.b.motion->column[6 * 2 + MPS_SHIP_SURGE], 0.002, 1e-15);
     same_number(t.b.motion->column[6 * 2 + MPS_SHIP_ROLL], 3 * acos(-1.0) / 180, 1e-15);
     built_free(&t);
+    /* 'columns' with the time alone leaves the names of degrees as they are */
+    const char *clock = "clock[s],surge[m]\n0,0\n1,0.001\n2,0.002\n";
+    write_bytes(clock, strlen(clock));
+    snprintf(all, sizeof all, "%s{file: %s, columns: {time: clock}}\n", CASE(""),
+             kit_here(path, sizeof path, FILE_NAME));
+    assert_int_equal(built_try(&t, all, NULL), MPS_OK);
+    same_number(t.b.motion->column[6 * 2 + MPS_SHIP_SURGE], 0.002, 1e-15);
+    built_free(&t);
 }
 
 /* The public reader: stats, record, compare. */

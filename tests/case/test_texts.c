@@ -92,7 +92,7 @@ static void numbers(void **state)
     (void)state;
     memset(digits, '3', 70);
     digits[70] = '\0';
-    is_size(digits, "is no number; a length is wanted|3333");
+    is_size(digits, "is no number; a length is wanted, e.g. '|3333");
     is_size("1e1000000 1 m", "'1e1000000' is too large");
     is_size("1 2 3 4 m", "more than 3 numbers");
     is_size("1-2 m", "'1-2' is no number; write a list with blanks");

@@ -217,6 +217,12 @@ expect 0 "" "$program" sweep sweep.yaml -o swept -q -j 1
 grep -q '^001,"a, b",0,' swept/sweep.csv && grep -q '^002,"say ""c""",0,' swept/sweep.csv && grep -q '^003,plain,0,' swept/sweep.csv ||
     fail "quotes of sweep.csv: $(cat swept/sweep.csv)"
 head -1 swept/sweep.csv | grep -q '^run,title,exit,surge.max\[m\],P.max\[Pa\],eta.max\[m\],' || fail "a sweep without collect: $(head -1 swept/sweep.csv)"
+# the names of all columns are known before a run: no sensor may have them
+for name in $(head -1 swept/001/probes.csv | tr , '\n' | sed 's/\[.*//' | grep -vE '^(P|eta|F|F_.*)$'); do
+    expect 2 "sensors.$name: probes.csv has a column '$name'" "$program" check small.yaml --set "sensors.$name={gauge: 1 dp}"
+done
+expect 2 "collect: no sensor is 'Q'; there are P" "$program" check sweep.yaml --set 'collect=[P.max, Q.max]'
+expect 0 "mps sweep: table of the runs: swept/sweep.csv" "$program" sweep sweep.yaml -o swept
 # unreadable constants of a run are reported
 sed -i '1s/{/{ broken/' swept/003/summary.json
 expect 0 "swept/003/summary.json" "$program" sweep sweep.yaml -o swept -q

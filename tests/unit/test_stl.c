@@ -105,6 +105,8 @@ static void scale_and_orientation(void **state)
             ASSERT_NEAR(area_of(sim, &volume) * 1e6, 4 * 3.14159, 0.02 * 4 * 3.14159);
             /* about (1, 1, 1) mm: the sum of the areas is zero, so the position does not matter */
             ASSERT_NEAR(volume * 1e9, container ? 4.13 : -4.13, 0.1);
+            ASSERT_REFUSED(sim, read_file(sim, container, 1e-6), MPS_E_ARG,
+                           "is the unit of the file right?");
             mps_sim_destroy(sim);
         }
     }

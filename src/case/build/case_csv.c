@@ -118,8 +118,8 @@ double mps__case_csv_factor(mps_case *c, const tree_node *at, const mps__csv *t,
     if (unit && !agree(c, at, t, column, unit)) return NAN;
     if (!text[0])
         mps__case_say(c, at, false,
-                      "%s: column '%s' has no unit; write it behind the name, e.g. '%s[%.*s]': %s "
-                      "is wanted, in %s",
+                      "%s: column '%s' has no unit; write it behind the name, e.g. '%s[%.*s]', or "
+                      "give 'units' in the case: %s is wanted, in %s",
                       t->path, t->name[column], t->name[column], (int)strcspn(units, ","), units,
                       wanted, units);
     else if (!u || !(u->kinds & kinds) || u->scale != SCALE_NONE)

@@ -145,6 +145,8 @@ static void write_tank(const writer *w, const build *b)
     for (int d = 0; d < b->dim && b->tank.built[0] > 0; d++)
         if (fabs(b->tank.built[d] - b->tank.size[d]) > 1e-6 * b->dp)
             fprintf(w->file, "; built %.5g m along %c", b->tank.built[d], "xyz"[d]);
+    if (b->dim == 2 && b->tank.size[2] > 0 && !mps__tree_find(b->root, "dim"))
+        fprintf(w->file, "; in 2-D the third number of 'size' is not used, 'dim: 3' uses it");
     fprintf(w->file, "\n");
     for (int32_t i = 0; i < b->solids; i++) {
         mps__check_heading(w, i ? "" : "solids");
@@ -205,10 +207,20 @@ static bool find_rows(build *b, top_rows *r)
     return good && r->top > 0 && r->below > 0;
 }
 
-/* A level between two layers leaves the top layer with as many particles as the volume requires, in
- * groups or beside walls: steps in the surface. Measured in boxes of 4 and 20 layers, 2-D and 3-D,
- * and in a polygon of 3.6 layers: the level of the pressures is off by up to .39 layers at the
- * start and by up to .2 layers later. */
+/* A film of less than three rows is no liquid with waves: mostly its unit, or that of dp, is wrong. */
+static void write_rows(const writer *w, const build *b)
+{
+    if (!(b->depth < 3 * b->dp)) return;
+    mps__check_heading(w, "");
+    fprintf(w->file,
+            "the liquid is only %.2g spacings deep: no wave is resolved; give a finer dp\n",
+            b->depth / b->dp);
+}
+
+/* A level between two rows leaves the uppermost one with the particles that the volume asks for, in
+ * groups or beside walls: steps in the surface. Measured in boxes of 4 and 20 rows, 2-D and 3-D, and
+ * in a polygon of 3.6 rows: the level of the pressures is off by up to .39 rows at the start and by
+ * up to .2 rows later. */
 static void write_top(const writer *w, build *b)
 {
     top_rows r;
@@ -254,6 +266,7 @@ static void write_fluids(const writer *w, build *b)
         mps__check_heading(w, "level");
         fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
                 b->tank.form.lo[1] + b->depth);
+        write_rows(w, b);
         write_top(w, b);
     }
 }

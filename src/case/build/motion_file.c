@@ -19,12 +19,22 @@ static const tree_node *at_of(const tree_node *map, const char *key)
     return node ? node : mps__tree_find(map, "file");
 }
 
-/* Find a column by `columns`, or by the name of a degree of freedom. */
+/* Whether `columns` has a degree, not the time alone. */
+static bool chooses(const tree_node *columns)
+{
+    for (int32_t d = 0; columns && d < MOTION_DEGREES; d++)
+        if (mps__tree_find(columns, mps__degrees[d])) return true;
+    return false;
+}
+
+/* By `columns`; where it has no degree, a column that has the name of the degree. */
 static int32_t find_column(build *b, const tree_node *map, const mps__csv *t, const char *key)
 {
     const tree_node *columns = mps__tree_find(map, "columns");
-    const char *name = columns ? mps__read_text(b->c, columns, key, NULL) : key;
-    return name ? mps__case_csv_find(b->c, at_of(map, key), t, name, columns != NULL) : -1;
+    const bool given = columns && mps__tree_find(columns, key);
+    if (!given && chooses(columns)) return -1;
+    const char *name = given ? mps__read_text(b->c, columns, key, NULL) : key;
+    return name ? mps__case_csv_find(b->c, at_of(map, key), t, name, given) : -1;
 }
 
 static bool choose(build *b, build_motion *m, const tree_node *map, const mps__csv *t, chosen *c)
@@ -75,7 +85,7 @@ static void note_unused(build *b, build_motion *m, const tree_node *map, const m
             used += (size_t)snprintf(m->unused + used, sizeof m->unused - used, "%s%s",
                                      used ? ", " : "", t->name[k]);
     }
-    if (used && !mps__tree_find(map, "columns"))
+    if (used && !chooses(mps__tree_find(map, "columns")))
         mps__case_say(b->c, mps__tree_find(map, "file"), true,
                       "%s: columns that are no motion: %s; 'columns' says what they are, e.g. "
                       "{roll: PHI}",

@@ -82,13 +82,12 @@ static mps_status refuse(const mps_job_config *o, const difference *d)
     char path[PATH_ROOM], before[VALUE_SHOWN + 8], now[VALUE_SHOWN + 8];
     mps__tree_path(d->before ? d->before : d->now, path, sizeof path);
     if (o->error && o->error_size > 0)
-        snprintf(
-            o->error, o->error_size,
-            "--resume: %s is %s, in the run of '%.200s' it is %s; only run.until, run.threads, "
-            "run.checkpoint, run.checkpoint_clock, title, impacts, collect, reference and "
-            "output (not its rate, frame, trace and pieces) may change; run another case in "
-            "another folder with --out",
-            path, shown(d->now, now), o->folder, shown(d->before, before));
+        snprintf(o->error, o->error_size,
+                 "%s is %s, in the run of '%.200s' it is %s; only run.until, run.threads, "
+                 "run.checkpoint, run.checkpoint_clock, title, impacts, collect, reference and "
+                 "output (not its rate, frame, trace and pieces) may change; run another case in "
+                 "another folder with --out",
+                 path, shown(d->now, now), o->folder, shown(d->before, before));
     return MPS_E_STATE;
 }
 
@@ -107,11 +106,10 @@ mps_status mps__build_resumed(const mps_case *c, const mps_job_config *options)
     if (status != MPS_OK && status != MPS_E_NOMEM && options->error && options->error_size > 0) {
         char why[600] = "";
         mps_case_messages_write(now ? now : before, why, sizeof why);
-        snprintf(
-            options->error, options->error_size,
-            "--resume: %.300s is not the case of a run; mend it, or start anew with --overwrite, "
-            "which deletes the run\n%s",
-            path, why);
+        snprintf(options->error, options->error_size,
+                 "%.300s is not the case of a run; mend it, or start anew with --overwrite, "
+                 "which deletes the run\n%s",
+                 path, why);
     }
     if (status == MPS_OK && maps_differ(before->root, now->root, &d)) status = refuse(options, &d);
     mps_case_destroy(before);

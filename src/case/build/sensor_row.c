@@ -80,8 +80,21 @@ static void begin(const sensing *s, mps_probe *probe)
 
 /* ---- panels ---- */
 
-/* Corners and sides of a panel: 2 points in 2-D; 3 or 4 consecutive corners in 3-D, or 2 opposite
- * ones of a panel along the axes. */
+/* Whether each corner of a panel in 3-D has three coordinates: a place without z would be in the
+ * middle of the tank, and the panel a line or across the tank. */
+static bool has_depth(const sensing *s)
+{
+    const tree_node *list = mps__tree_find(s->map, "panel");
+    double x[3];
+    for (const tree_node *n = list ? list->first : NULL; n; n = n->next)
+        if (mps__read_values(s->b->c, n, 3, x) < 3) {
+            mps__sensor_say(s, "panel", "a corner needs x, y and z in 3-D");
+            return false;
+        }
+    return true;
+}
+
+/* Corners and sides of a panel: 2 points in 2-D; 3 or 4 corners in turn in 3-D, or 2 opposite ones of a panel along the axes. */
 static bool read_panel(const sensing *s, double *corner, double (*side)[3])
 {
     build *b = s->b;
@@ -93,24 +106,28 @@ static bool read_panel(const sensing *s, double *corner, double (*side)[3])
         mps__sensor_say(s, "panel", "needs its two ends");
         return false;
     }
+    if (b->dim == 3 && !has_depth(s)) return false;
     memcpy(corner, x[0], 3 * sizeof *corner);
     memset(side, 0, 6 * sizeof **side);
     int used = 0;
+    for (int d = 0; d < 3; d++) used += b->dim == 3 && count == 2 && x[1][d] != x[0][d];
+    if (b->dim == 3 && count == 2 && used != 2) {
+        mps__sensor_say(s, "panel",
+                        used == 3
+                            ? "two points are opposite corners of a panel along the axes; of "
+                              "an inclined one give three corners in turn"
+                            : "two points in 3-D are opposite corners, which differ along two "
+                              "axes");
+        return false;
+    }
+    used = 0;
     for (int d = 0; d < 3; d++) {
         if (b->dim == 2) side[0][d] = x[1][d] - x[0][d];
         if (b->dim == 3 && count > 2) {
             side[0][d] = x[1][d] - x[0][d];
             side[1][d] = x[2][d] - x[1][d];
         }
-        if (b->dim == 3 && count == 2 && x[1][d] != x[0][d]) {
-            if (used == 2) {
-                mps__sensor_say(s, "panel",
-                                "two points are opposite corners of a panel along the "
-                                "axes; of an inclined one give three corners");
-                return false;
-            }
-            side[used++][d] = x[1][d] - x[0][d];
-        }
+        if (b->dim == 3 && count == 2 && x[1][d] != x[0][d]) side[used++][d] = x[1][d] - x[0][d];
     }
     return true;
 }

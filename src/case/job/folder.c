@@ -261,11 +261,10 @@ static bool folder_is_link(const folder *f, const char *name, char *error, size_
     struct stat s;
     snprintf(path, sizeof path, "%s/%s", f->path, name);
     if (lstat(path, &s) != 0 || !S_ISLNK(s.st_mode)) return false;
-    snprintf(
-        error, size,
-        "--resume: %s is a link: what it leads to is not changed; put the file or folder itself "
-        "there",
-        path);
+    snprintf(error, size,
+             "resume: %s is a link: what it leads to is not changed; put the file or folder itself "
+             "there",
+             path);
     return true;
 }
 

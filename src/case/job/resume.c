@@ -141,8 +141,8 @@ bool mps__resume_forget(mps_job *job, const char *keep)
 static bool refuse_checkpoint(mps_job *job, mps_status status)
 {
     const bool usage = status == MPS_E_ARG || status == MPS_E_IO || status == MPS_E_VERSION;
-    return mps__job_fail(job, usage ? MPS_EXIT_USAGE : MPS_EXIT_FAILED,
-                         "--resume: %s; " RESUME_ANEW, mps_sim_error(job->sim));
+    return mps__job_fail(job, usage ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "resume: %s; " RESUME_ANEW,
+                         mps_sim_error(job->sim));
 }
 
 /* Restart a run that was killed before its first checkpoint, or is too short to have one. */
@@ -152,17 +152,17 @@ static bool begin_again(mps_job *job)
     const double end = reached_end(job);
     if (job->config.t_end <= end)
         return mps__job_fail(job, MPS_EXIT_USAGE,
-                             "--resume: the run in '%s' reached its end, t = %g s, and has no "
+                             "resume: the run in '%s' reached its end, t = %g s, and has no "
                              "checkpoint; give a later %s, or " RESUME_ANEW,
                              job->place.path, end, end_option(job));
     snprintf(path, sizeof path, "%s/%s", job->place.path,
              job->config.text ? "case.yaml" : "steps.csv");
     if (access(path, F_OK) != 0)
-        return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: there is no run in '%s'",
+        return mps__job_fail(job, MPS_EXIT_USAGE, "resume: there is no run in '%s'",
                              job->place.path);
     job->config.resume = 0;
     if (!job->config.quiet)
-        mps__job_tell(job, "--resume: the run in '%s' has no checkpoint: it begins again at t = 0",
+        mps__job_tell(job, "resume: the run in '%s' has no checkpoint: it begins again at t = 0",
                       job->place.path);
     return true;
 }
@@ -179,12 +179,12 @@ bool mps__resume_read(mps_job *job)
     mps_sim_time(job->sim, &t, NULL);
     if (t > job->config.t_end)
         return mps__job_fail(job, MPS_EXIT_USAGE,
-                             "--resume: the checkpoint is at t = %g s, later than %s, %g s; give a "
+                             "resume: the checkpoint is at t = %g s, later than %s, %g s; give a "
                              "later end",
                              t, end_option(job), job->config.t_end);
     if (!isnan(reached_end(job)) && !job->config.quiet)
         mps__job_tell(job,
-                      "--resume: the run in '%s' reached its end; its last steps from t = %g s are "
+                      "resume: the run in '%s' reached its end; its last steps from t = %g s are "
                       "taken again; a later %s extends it",
                       job->place.path, t, end_option(job));
     job->fluid_at_start = number_of(job, "n_fluid", NULL);
@@ -214,13 +214,12 @@ bool mps__resume_tables(mps_job *job)
     int64_t steps = 0;
     mps_sim_time(job->sim, NULL, &steps);
     if (job->totals.steps != steps || job->totals.t != job->totals.t_before)
-        return mps__job_fail(
-            job, MPS_EXIT_USAGE,
-            "--resume: steps.csv has not the steps of the checkpoint; " RESUME_ANEW);
+        return mps__job_fail(job, MPS_EXIT_USAGE,
+                             "resume: steps.csv has not the steps of the checkpoint; " RESUME_ANEW);
     for (int k = 0; k < (job->config.trace ? 4 : 3); k++)
         if (!mps__table_cut(all[k]))
             return mps__job_fail(job, MPS_EXIT_FAILED,
-                                 "--resume: the files of rows cannot be cut at the checkpoint: %s",
+                                 "resume: the files of rows cannot be cut at the checkpoint: %s",
                                  all[k]->why);
     return true;
 }

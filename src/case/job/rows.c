@@ -34,7 +34,7 @@ bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *h
                                   : mps__table_begin(t, header);
     if (done) return true;
     if (!job->config.resume) return mps__job_fail(job, MPS_EXIT_USAGE, "%s", t->why);
-    return mps__job_fail(job, MPS_EXIT_USAGE, "--resume: %s; " RESUME_ANEW, t->why);
+    return mps__job_fail(job, MPS_EXIT_USAGE, "resume: %s; " RESUME_ANEW, t->why);
 }
 
 /* Header of probes.csv; the caller frees it, NULL: memory is exhausted. */

@@ -118,8 +118,9 @@ static void check_needs(mps_case *c, const tree_node *map, const mps__key_group 
     for (const tree_node *n = map->first; n; n = n->next) {
         if (strlen(n->key) != length || memcmp(n->key, g->keys, length) != 0) continue;
         if (!mps__tree_find(map, needed))
-            mps__case_say_key(c, n, "%s: '%s' is missing beside it",
-                              mps__tree_path(n, path, sizeof path), needed);
+            mps__case_say_key(c, n, "%s: '%s' is missing beside it, e.g. '%s: %s'",
+                              mps__tree_path(n, path, sizeof path), needed, needed,
+                              mps__key_below(map->entry, needed)->example);
     }
 }
 
@@ -244,5 +245,6 @@ void mps__check(mps_case *c, tree_node *root)
     mps__plugins_load(c, root);
     mps__check_models(c, root);
     mps__check_sweep(c, root);
+    mps__check_columns(c, root);
     forget_reads(root);
 }

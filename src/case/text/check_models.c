@@ -12,18 +12,22 @@
 /* A function of libmps that lists names. */
 typedef mps_status (*list_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
 
-enum { NAME_ROOM = 64 };
+enum { NAME_ROOM = 64, LISTED_ROOM = 160 };
 
-/* Write the nearest of the names of `list` into `nearest`.
- * @return whether the list has the name itself */
-static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *nearest)
+/* The nearest of the names that `list` has, into `nearest`, and all of them into `all`;
+ * @return whether the name itself is there */
+static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *nearest, char *all)
 {
     mps_name_info info;
     int32_t distance, best = 2 * NAME_ROOM;
-    nearest[0] = '\0';
+    size_t used = 0;
+    nearest[0] = all[0] = '\0';
     mps_name_info_init(&info, sizeof info);
     for (int32_t k = 0; list(sim, k, &info) == MPS_OK; k++) {
         if (strcmp(info.name, name) == 0) return true;
+        if (used < LISTED_ROOM)
+            used += (size_t)snprintf(all + used, LISTED_ROOM - used, "%s%s", k ? ", " : "",
+                                     info.name);
         if (!mps__words_near(name, info.name, &distance) || distance >= best) continue;
         best = distance;
         snprintf(nearest, NAME_ROOM, "%s", info.name);
@@ -31,20 +35,25 @@ static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *
     return false;
 }
 
-static void refuse_name(mps_case *c, const tree_node *node, const char *what, const char *nearest)
+/* @param others  what there is, for a name to which none is near */
+static void refuse_name(mps_case *c, const tree_node *node, const char *what, const char *nearest,
+                        const char *others)
 {
     char path[PATH_ROOM];
-    mps__case_say(c, node, false, "%s: no %s '%.60s'%s%s%s",
+    mps__case_say(c, node, false, "%s: no %s '%.60s'; %s%s%s",
                   mps__tree_path(node, path, sizeof path), what, node->text,
-                  *nearest ? "; did you mean '" : "", nearest, *nearest ? "'?" : "");
+                  *nearest ? "did you mean '" : "", *nearest ? nearest : others,
+                  *nearest ? "'?" : "");
 }
 
 static void check_name(mps_case *c, const mps_sim *sim, const tree_node *node, const char *what,
                        list_fn list)
 {
-    char nearest[NAME_ROOM];
+    char nearest[NAME_ROOM], all[LISTED_ROOM], others[LISTED_ROOM + 16];
     if (!node || node->kind != TREE_TEXT || !*node->text) return;
-    if (!find_name(sim, list, node->text, nearest)) refuse_name(c, node, what, nearest);
+    if (find_name(sim, list, node->text, nearest, all)) return;
+    snprintf(others, sizeof others, "there are %s", all);
+    refuse_name(c, node, what, nearest, others);
 }
 
 /* ---- models ---------------------------------------------------------------------------------- */
@@ -74,7 +83,8 @@ static void check_model(mps_case *c, const mps_sim *sim, const tree_node *node, 
     char nearest[NAME_ROOM];
     if (node->kind != TREE_TEXT || !*node->text) return;
     if (!find_model(sim, node->text, slot, nearest))
-        refuse_name(c, node, slot ? "slot or model" : "model", nearest);
+        refuse_name(c, node, slot ? "slot or model" : "model", nearest,
+                    "'mps list models' lists those of the library, 'mps list plugins' others");
 }
 
 /* Check a text, or each text of a list. */
@@ -175,8 +185,9 @@ static void check_setting(mps_case *c, const mps_sim *sim, tree_node *node)
     double value;
     if (!find_setting(c, sim, &s, &info)) {
         mps__case_say_key(c, node, "no setting '%.60s'%s%s%s", node->key,
-                          *s.nearest ? "; did you mean '" : "; settings are slot.key", s.nearest,
-                          *s.nearest ? "'?" : "");
+                          *s.nearest ? "; did you mean '"
+                                     : "; settings are slot.key, as 'mps list settings' lists them",
+                          s.nearest, *s.nearest ? "'?" : "");
         return;
     }
     if (!take_unit(c, node, info.unit)) return;

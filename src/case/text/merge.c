@@ -221,6 +221,10 @@ void mps__set_text(mps_case *c, tree_node *root, const char *text)
         mps__case_fail(c, at, "path=value is wanted, e.g. 'run.until=60 s'");
         return;
     }
+    if (s.size == 0) {
+        mps__case_fail(c, at, "there is no value behind '%s='", path);
+        return;
+    }
     if (s.size > TREE_BYTES) {
         mps__case_fail(c, at, "the value is larger than 1 MB");
         return;

@@ -81,7 +81,9 @@ static bool refuse_text(mps__numbers *n, const char *at)
 {
     char kinds[120];
     mps__kinds_name(n->kinds, kinds, sizeof kinds);
-    snprintf(n->why, sizeof n->why, "'%.*s' is no number; %s is wanted", SHOWN, at, kinds);
+    snprintf(n->why, sizeof n->why, "'%.*s' is no number; %s is wanted%s%.60s%s", SHOWN, at, kinds,
+             n->like && *n->like ? ", e.g. '" : "", n->like ? n->like : "",
+             n->like && *n->like ? "'" : "");
     return false;
 }
 

@@ -130,6 +130,18 @@ static bool can_sweep(const mps__key *key)
            key->shape != SHAPE_PATHS && !mps__key_names(key);
 }
 
+static void refuse_path(mps_case *c, const tree_node *n)
+{
+    char near[64];
+    const char *known = strchr(n->key, '.')
+                            ? NULL
+                            : mps__key_nearest(&mps__keys[0], n->key, near, sizeof near);
+    if (known && strcmp(known, n->key) == 0) known = NULL; /* a map */
+    mps__case_say_key(c, n, "sweep: '%.80s' is no path of a value%s%s%s", n->key,
+                      known ? "; did you mean '" : ", as 'motion.roll.period'", known ? known : "",
+                      known ? "'?" : "");
+}
+
 void mps__check_sweep(mps_case *c, tree_node *root)
 {
     const tree_node *sweep = mps__tree_find(root, "sweep");
@@ -143,7 +155,7 @@ void mps__check_sweep(mps_case *c, tree_node *root)
                               "sweep: plug-ins cannot be varied; their settings can, e.g. "
                               "'settings.screen.darcy'");
         else if (!can_sweep(key))
-            mps__case_say_key(c, n, "sweep: '%.80s' is no path of a value", n->key);
+            refuse_path(c, n);
         else if (count == 0 || count > PATH_VALUES)
             mps__case_say(
                 c, n, false,

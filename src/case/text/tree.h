@@ -139,7 +139,9 @@ void mps__check_value(mps_case *c, tree_node *node);
 /* Check names of models and of solvers, and units and ranges of settings, against libmps. */
 void mps__check_models(mps_case *c, tree_node *root);
 void mps__check_sweep(mps_case *c, tree_node *root);
-/* Numbers of a node in SI units, with messages. @return number of values, -1: an error */
+/* Names of sensors that other columns have, and of 'collect' that no sensor has. */
+void mps__check_columns(mps_case *c, const tree_node *root);
+/* Numbers of a node in SI units, with messages. @return how many, -1: an error */
 int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, double *out,
                           uint64_t *found);
 /* The number of a setting in the unit of libmps. @return false: an error, with its message */

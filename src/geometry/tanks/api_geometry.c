@@ -27,7 +27,8 @@ static mps_status tank_cells(mps_sim *sim, const mps_tank *tank, int64_t cells[3
         MPS__CHECK(&sim->context, isfinite(tank->lo[d]), "tank.lo[%d] is %g: must be finite", d,
                    tank->lo[d]);
         MPS__CHECK(&sim->context, isfinite(n) && tank->size[d] >= (3 - 1e-6) * dp,
-                   "tank.size[%d] is %g m: at least 3 spacings of %g m", d, tank->size[d], dp);
+                   "tank.size[%d] is %g m: must be at least 3 spacings of %g m", d, tank->size[d],
+                   dp);
         MPS__TRY(mps__place_resolved(sim, "tank.lo", d, tank->lo[d]));
         MPS__TRY(mps__place_resolved(sim, "tank.size", d, tank->lo[d] + tank->size[d]));
         along[d] = n;

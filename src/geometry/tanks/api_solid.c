@@ -238,6 +238,12 @@ static mps_status add_mesh(mps_sim *sim, const char *path, const mps_stl *s, mps
     MPS__CHECK(&sim->context, mps__finite(add.lo, 3) && mps__finite(add.hi, 3),
                "\"%.200s\": a coordinate is not finite after scaling by %g", path, s->scale);
     MPS__TRY(check_corner(sim, "the STL file's lower corner ", add.lo));
+    const double side[3] = {add.hi[0] - add.lo[0], add.hi[1] - add.lo[1], add.hi[2] - add.lo[2]};
+    const double longest = side[mps__longest(side, 3)];
+    MPS__CHECK(&sim->context, longest == 0 || longest >= sim->world.setup.dp,
+               "\"%.200s\" is %.3g x %.3g x %.3g m, smaller than a spacing of %g m: is the unit "
+               "of the file right?",
+               path, side[0], side[1], side[2], sim->world.setup.dp);
     MPS__TRY(prepare_mesh(sim, m, path, s->container != 0));
     add.shape = (mps__shape){.dim = 3, .dp = sim->world.setup.dp, .sign = 1, .mesh = m};
     memcpy(built, add.lo, sizeof add.lo);
