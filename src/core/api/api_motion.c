@@ -88,7 +88,7 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
         return status;
     }
     /* the limits predicted by the last step used velocities relative to the tank */
-    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.changes = -1;
+    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.flow = -1;
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
     if (!goes_on) w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;

@@ -265,7 +265,6 @@ static void restore_particles(mps_snapshot *k, const arrival *a)
         copy_fields(k);
     else
         fill_store(k);
-    s->changes++;
     mps__twins_forget(&w->host.twins);
     s->next_id = k->next_id;
     s->written = k->written;

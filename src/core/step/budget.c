@@ -268,7 +268,7 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
  * agreement. */
 static bool is_booked(const mps__world *w)
 {
-    return w->booked == w->particles.changes && !mps__ranks_many(&w->ranks);
+    return w->booked == mps__particles_flow(&w->particles) && !mps__ranks_many(&w->ranks);
 }
 
 mps_status mps__budget_update(const mps__world *w, mps__budget *b)

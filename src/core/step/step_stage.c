@@ -12,11 +12,11 @@ static void set_scalars(mps__step *q)
     mps__channel *list = q->w->channels.list;
     mps__equation *e = &q->terms.equation;
     *e = (mps__equation){.radius = MPS_FAR, .gain = 1.0};
-    list[MPS__EQUATION_RADIUS].array = &e->radius;
-    list[MPS__EQUATION_COMPLETE].array = &e->complete_surface;
-    list[MPS__EQUATION_BODY].array = &e->body;
-    list[MPS__EQUATION_WALL_FACTOR].array = &e->wall_factor;
-    list[MPS__EQUATION_GAIN].array = &e->gain;
+    list[MPS__EQUATION_RADIUS].array.host = &e->radius;
+    list[MPS__EQUATION_COMPLETE].array.host = &e->complete_surface;
+    list[MPS__EQUATION_BODY].array.host = &e->body;
+    list[MPS__EQUATION_WALL_FACTOR].array.host = &e->wall_factor;
+    list[MPS__EQUATION_GAIN].array.host = &e->gain;
 }
 
 static void *array_of(mps__world *w, int32_t channel)

@@ -195,15 +195,14 @@ mps_status mps__step_place_solids(mps__world *w)
     mps__channel *list = w->channels.list;
     k->bodies = mps__plan_has_writer(&w->host.plan, MPS__SOLID_PLACE) ||
                 mps__plan_has_writer(&w->host.plan, MPS__SOLID_AREA);
-    list[MPS__SOLID_PLACE].array = s->ref;
-    list[MPS__SOLID_AREA].array = s->area;
+    list[MPS__SOLID_PLACE].array.host = list[MPS__SOLID_AREA].array.host = NULL; /* the fields */
     if (!k->bodies) return MPS_OK;
     MPS__TRY(mps__world_fetch_field(w, s->ref));
     MPS__TRY(mps__world_fetch_field(w, s->area));
     MPS__TRY(mps__grow(w->context, (void **)&k->placed, &k->placed_capacity, 0, 2 * count,
                        sizeof *k->placed));
-    list[MPS__SOLID_PLACE].array = k->placed;
-    list[MPS__SOLID_AREA].array = k->placed + count;
+    list[MPS__SOLID_PLACE].array.host = k->placed;
+    list[MPS__SOLID_AREA].array.host = k->placed + count;
     memcpy(k->placed, s->ref, (size_t)count * sizeof *s->ref);
     memcpy(k->placed + count, s->area, (size_t)count * sizeof *s->area);
     return MPS_OK;

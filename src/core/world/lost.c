@@ -8,7 +8,7 @@
 static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
-    w->particles.changes++;
+    mps__particles_written(&w->particles);
     w->ahead.holds = false;
     w->ghosts.known -= count;
     w->particles.generation++;

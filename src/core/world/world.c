@@ -24,7 +24,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__bounds_init(&w->bounds, context);
     mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
-    w->ahead.changes = w->booked = -1;
+    w->ahead.flow = w->booked = -1;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
@@ -40,7 +40,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .parallel = &w->pool.parallel,
                           .ghosts = &w->ghosts,
                           .phase_defined = w->setup.phase_defined,
-                          .densities = {.changes = -1},
+                          .densities = {.versions = -1},
                           .sets = {.context = context}};
     mps__twins_init(&w->host.twins, &w->channels, &w->particles, &w->pool.parallel);
     mps__plan_init(&w->host.plan, passes, pass_count);
@@ -211,7 +211,7 @@ mps_status mps__world_reserve(mps__world *w)
 static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
-    w->particles.changes++;
+    mps__particles_written(&w->particles);
     MPS__TRY(mps__world_link_walls(w));
     MPS__TRY(mps__plates_find(w));
     mps__neighbours_hide(&w->lists.neighbours);

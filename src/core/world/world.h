@@ -144,9 +144,8 @@ enum {
 };
 typedef struct mps__ahead {
     double most[MPS__AHEADS];
-    /* values of mps__particles.changes and mps_neighbours.searches at the end of the step; changes
-     * -1: no flags */
-    int64_t changes, searches;
+    /* mps__particles_flow() and mps_neighbours.searches at the end of the step; flow -1: no flags */
+    int64_t flow, searches;
     bool holds; /* the flags are valid in the step in progress */
 } mps__ahead;
 
@@ -217,7 +216,7 @@ typedef struct mps__world {
     mps__mass mass;
     bool ending; /* dt_max of a step is the rest of a run */
     mps__ahead ahead;
-    /* value of mps__particles.changes when the last step summed state.budget.last */
+    /* mps__particles_flow() when the last step summed state.budget.last */
     int64_t booked;
 } mps__world;
 
