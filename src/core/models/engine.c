@@ -23,13 +23,6 @@ static mps__array *field_of(mps__twins *t, int32_t field)
     return mps__field_array(&t->particles->field[field]);
 }
 
-/* Host lists stay readable when their rows change on the device: they hold an older partition of
- * the same candidates, from which the rows can be rebuilt if the device fails. */
-static bool is_list(const mps__twins *t, const mps__array *a)
-{
-    return a >= t->block && a < t->block + MPS__LASTING;
-}
-
 /* ---- a device ---- */
 
 void mps__twins_init(mps__twins *t, mps__channels *c, mps__particles *s, mps_parallel *parallel)
@@ -209,56 +202,70 @@ int32_t mps__twins_go(mps__twins *t, int32_t place)
     return before;
 }
 
-/* Array of the field or block that contains a host address, or NULL. */
-static mps__array *find(mps__twins *t, const void *array)
+static void *address(const mps__twins *t, const mps__array *a)
 {
-    const char *at = array;
-    for (int32_t k = 0; k < t->particles->fields + MPS__BLOCKS; k++) {
-        mps__array *a = k < t->particles->fields ? field_of(t, k)
-                                                 : &t->block[k - t->particles->fields];
-        const char *host = a->host;
-        if (a->bytes > 0 && at >= host && at < host + a->bytes) return a;
-    }
-    return NULL;
+    return t->place == MPS__ON_DEVICE ? a->mirror.data : a->host;
 }
 
-static bool is_block(const mps__twins *t, const mps__array *a)
+void *mps__twins_seen(mps__twins *t, int32_t field)
 {
-    return a >= t->block && a < t->block + MPS__BLOCKS;
+    mps__array *a = field_of(t, field);
+    if (t->open) mps__array_copy(a, t->place);
+    return address(t, a);
 }
 
-static void *address(const mps__array *a, const void *array)
+void *mps__twins_given(mps__twins *t, int32_t field)
 {
-    return (char *)a->mirror.data + ((const char *)array - (const char *)a->host);
+    mps__array *a = field_of(t, field);
+    mps__array_written(a, t->place);
+    return address(t, a);
 }
 
-void *mps__twins_seen(mps__twins *t, const void *array)
+static mps__array *block_of(mps__twins *t, int32_t block, const void *host)
 {
-    mps__array *a = t->open && array ? find(t, array) : NULL;
-    if (!a) return (void *)array;
-    if (!is_block(t, a) || t->place == MPS__ON_DEVICE) mps__array_copy(a, t->place);
-    return t->place == MPS__ON_DEVICE ? address(a, array) : (void *)array;
+    mps__array *a = &t->block[block];
+    return t->open && a->bytes > 0 && a->host == host ? a : NULL;
 }
 
-void *mps__twins_given(mps__twins *t, void *array, bool all)
+void *mps__twins_list_seen(mps__twins *t, int32_t block, const void *host)
 {
-    mps__array *a = t->open && array ? find(t, array) : NULL;
-    if (!a) return array;
+    mps__array *a = block_of(t, block, host);
+    if (!a) return (void *)host;
+    if (t->place == MPS__ON_DEVICE) mps__array_copy(a, t->place);
+    return address(t, a);
+}
+
+/* Lists of a search stay readable on the host when their rows change on the device: there they hold
+ * an older partition of the same candidates, from which the rows can be rebuilt if the device
+ * fails. */
+void *mps__twins_list_given(mps__twins *t, int32_t block, void *host, bool all)
+{
+    mps__array *a = block_of(t, block, host);
+    if (!a) return host;
     if (!all) mps__array_copy(a, t->place);
-    if (!all && is_list(t, a) && t->place == MPS__ON_DEVICE)
+    if (!all && block < MPS__LASTING && t->place == MPS__ON_DEVICE)
         mps__array_advanced(a, t->place);
     else
         mps__array_written(a, t->place);
-    return t->place == MPS__ON_DEVICE ? address(a, array) : array;
+    return address(t, a);
 }
 
+/* Rows of pairs: those of the last search, or the compact near rows. */
 static void see_pairs(mps__twins *t, mps_stencil *s)
 {
-    s->x = mps__twins_seen(t, s->x);
-    s->begin = mps__twins_seen(t, s->begin);
-    s->end = mps__twins_seen(t, s->end);
-    s->col = mps__twins_seen(t, s->col);
-    s->w_r2 = mps__twins_seen(t, s->w_r2);
+    if (!s->begin) return;
+    if (s->x) s->x = mps__twins_seen(t, MPS__FIELD_POSITION);
+    if (block_of(t, MPS__NEAR_BEGIN, s->begin)) {
+        s->begin = mps__twins_list_seen(t, MPS__NEAR_BEGIN, s->begin);
+        s->end = s->begin + 1;
+        s->col = mps__twins_list_seen(t, MPS__NEAR_COLUMNS, s->col);
+        s->w_r2 = mps__twins_list_seen(t, MPS__NEAR_WEIGHTS, s->w_r2);
+        return;
+    }
+    const bool middle = block_of(t, MPS__ROWS_MIDDLE, s->end);
+    s->begin = mps__twins_list_seen(t, MPS__ROWS_BEGIN, s->begin);
+    s->end = mps__twins_list_seen(t, middle ? MPS__ROWS_MIDDLE : MPS__ROWS_END, s->end);
+    s->col = mps__twins_list_seen(t, MPS__ROWS_COLUMNS, s->col);
 }
 
 static void see_flux(mps__twins *t, mps_flux *f)
@@ -266,8 +273,8 @@ static void see_flux(mps__twins *t, mps_flux *f)
     int32_t channel[MPS__FLUX_CHANNELS];
     if (!f->density) return;
     mps__flux_channels(t->channels, channel);
-    f->kind = mps__twins_seen(t, f->kind);
-    f->phase = mps__twins_seen(t, f->phase);
+    f->kind = mps__twins_seen(t, MPS__FIELD_KIND);
+    f->phase = mps__twins_seen(t, MPS__FIELD_PHASE);
     f->density = mps__twins_array(t, channel[0], MPS__ON_DEVICE);
     f->tank_acceleration = mps__twins_array(t, channel[1], MPS__ON_DEVICE);
     f->distance = mps__twins_array(t, channel[2], MPS__ON_DEVICE);
@@ -278,12 +285,17 @@ static void see_flux(mps__twins *t, mps_flux *f)
 void mps__twins_view(mps__twins *t, mps_view *v)
 {
     if (t->place == MPS__ON_HOST) return;
-    v->kind = mps__twins_seen(t, v->kind);
-    v->phase = mps__twins_seen(t, v->phase);
-    v->id = mps__twins_seen(t, v->id);
-    v->x = mps__twins_seen(t, v->x);
-    v->area = mps__twins_seen(t, v->area);
-    v->wall_of = mps__twins_seen(t, v->wall_of);
+    const bool seen = v->kind == field_of(t, MPS__FIELD_KIND)->mirror.data,
+               turned = block_of(t, MPS__TURNED_AREAS, v->area);
+    v->kind = mps__twins_seen(t, MPS__FIELD_KIND);
+    v->phase = mps__twins_seen(t, MPS__FIELD_PHASE);
+    v->id = mps__twins_seen(t, MPS__FIELD_ID);
+    v->x = mps__twins_seen(t, MPS__FIELD_POSITION);
+    v->wall_of = mps__twins_seen(t, MPS__FIELD_WALL_OF);
+    if (seen) return; /* the other arrays, too, are those of the device */
+    if (v->area)
+        v->area = turned ? mps__twins_list_seen(t, MPS__TURNED_AREAS, v->area)
+                         : mps__twins_seen(t, MPS__FIELD_AREA);
     see_pairs(t, &v->near);
     see_pairs(t, &v->far);
     see_flux(t, &v->flux);

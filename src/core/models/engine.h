@@ -123,11 +123,14 @@ void mps__twins_rows_lose(mps__twins *t);
 /* Set the memory space where loops run; always the host outside of a step. @return the previous
  * one */
 int32_t mps__twins_go(mps__twins *t, int32_t place);
-/* Address of a field or block array for loops in the current memory space, with its newest values;
- * other arrays are returned unchanged. */
-void *mps__twins_seen(mps__twins *t, const void *array);
-/* Address of an array that loops write. `all`: they write every value that is read afterwards. */
-void *mps__twins_given(mps__twins *t, void *array, bool all);
+/* Address of a field for loops in the current memory space that read it, with its newest values; for
+ * loops that write all values that are read afterwards. */
+void *mps__twins_seen(mps__twins *t, int32_t field);
+void *mps__twins_given(mps__twins *t, int32_t field);
+/* Address of a block; `host`: its array on the host, which is returned if the block is not mirrored
+ * in this step. `all`: the loops write all values that are read afterwards. */
+void *mps__twins_list_seen(mps__twins *t, int32_t block, const void *host);
+void *mps__twins_list_given(mps__twins *t, int32_t block, void *host, bool all);
 /* Set the arrays of a view to the current memory space; the second function also those of
  * constants. */
 void mps__twins_view(mps__twins *t, mps_view *v);

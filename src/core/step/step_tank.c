@@ -98,7 +98,7 @@ static mps_status move_tank(mps_stage *s)
     const mps__world *w = q->w;
     const bool with_tank = w->motion.start == MPS_START_WITH_TANK,
                bodies = w->work.bodies && w->state.dt_before > 0;
-    tank_fields f = {.ref = mps__seen(w, w->particles.ref),
+    tank_fields f = {.ref = mps__seen(w, MPS__FIELD_REF),
                      .place = s->data[2],
                      .velocity = s->data[0],
                      .acceleration = s->data[1],
@@ -214,8 +214,8 @@ void mps__step_keep_places(mps__world *w, const double *place, const double *are
     const mps__particles *s = &w->particles;
     const size_t bytes = (size_t)(s->n * s->dim) * sizeof *place;
     if (!w->work.bodies) return;
-    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->ref), place, bytes);
-    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->area), area, bytes);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, MPS__FIELD_REF), place, bytes);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, MPS__FIELD_AREA), area, bytes);
 }
 
 /* ---- areas ---- */
@@ -255,7 +255,8 @@ void mps__step_find_areas(mps__world *w)
     v.area = s->area; /* the rotated ones are computed here */
     w->host.everywhere = true;
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const turn_fields f = {mps__seen(w, s->area), mps__given(w, w->work.turned)};
+    const turn_fields f = {mps__seen(w, MPS__FIELD_AREA),
+                           mps__given_list(w, MPS__TURNED_AREAS, w->work.turned)};
     mps__host_rows(&w->host, &v, &turn_rows, &f);
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
     w->host.everywhere = false;

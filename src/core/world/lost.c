@@ -209,14 +209,13 @@ MPS_ROWS(spilled_rows, look_behind, rims)
 static rims rims_of(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
-    const mps__particles *s = &w->particles;
-    return (rims){.begin = mps__seen(w, l->begin),
-                  .middle = mps__seen(w, l->middle),
-                  .col = mps__seen(w, l->col),
-                  .plate = mps__seen(w, s->plate),
-                  .rim = mps__seen(w, l->rim),
-                  .ref = mps__seen(w, s->ref),
-                  .area = mps__seen(w, s->area),
+    return (rims){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+                  .middle = mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle),
+                  .col = mps__seen_list(w, MPS__ROWS_COLUMNS, l->col),
+                  .plate = mps__seen(w, MPS__FIELD_PLATE),
+                  .rim = mps__seen_list(w, MPS__RIM_ROWS, l->rim),
+                  .ref = mps__seen(w, MPS__FIELD_REF),
+                  .area = mps__seen(w, MPS__FIELD_AREA),
                   .gone = w->work.gone};
 }
 
@@ -253,13 +252,13 @@ static void take_ahead(void *to, const double *most)
 
 void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
 {
-    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                .u = mps__seen(w, w->particles.u),
+    aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+                .u = mps__seen(w, MPS__FIELD_VELOCITY),
                 .carry = mps__motion_carry(&w->motion, pose)};
     mps_view v;
     if (mps__world_rows_there(w) && w->lists.screens.count == 0) {
         f.rims = rims_of(w);
-        f.rims.count = mps__seen(w, w->lists.neighbours.count);
+        f.rims.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
     }
     for (int d = 0; d < 3; d++) {
         f.box.lo[d] = -INFINITY;
@@ -280,8 +279,8 @@ static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
 {
     double most[MPS__AHEADS] = {0};
     MPS__TRY(mps__twins_enter(&w->host.twins));
-    const aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                      .u = mps__seen(w, w->particles.u),
+    const aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+                      .u = mps__seen(w, MPS__FIELD_VELOCITY),
                       .rims = rims_of(w)};
     mps__host_max(&w->host, v, MPS__AHEADS, &raise_aheads, &f, most);
     *any = most[MPS__AHEAD_SPILLED] > 0;

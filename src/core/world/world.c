@@ -143,7 +143,8 @@ double mps__world_speed(mps__world *w)
     if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
     mps__world_view(w, &v);
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const speeds f = {mps__seen(w, w->particles.u), mps__motion_carry(&w->motion, &w->motion.now)};
+    const speeds f = {mps__seen(w, MPS__FIELD_VELOCITY),
+                      mps__motion_carry(&w->motion, &w->motion.now)};
     mps__host_max(&w->host, &v, 1, &raise_speeds, &f, &most);
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);

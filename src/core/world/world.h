@@ -280,15 +280,24 @@ mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *s
 /* Mirror the arrays of those lists, and rotated wetted areas, on the device of a step that
  * begins. */
 mps_status mps__world_lists_twins(mps__world *w);
-/* Address of an array of a field or list in the memory space of the loops, for loops that read it;
- * for loops that overwrite all of it. */
-static inline void *mps__seen(const mps__world *w, const void *array)
+/* Address of a field, MPS__FIELD_..., in the memory space of the loops, for loops that read it; for
+ * loops that overwrite all of it. */
+static inline void *mps__seen(const mps__world *w, int32_t field)
 {
-    return mps__twins_seen((mps__twins *)&w->host.twins, array);
+    return mps__twins_seen((mps__twins *)&w->host.twins, field);
 }
-static inline void *mps__given(mps__world *w, void *array)
+static inline void *mps__given(mps__world *w, int32_t field)
 {
-    return mps__twins_given(&w->host.twins, array, true);
+    return mps__twins_given(&w->host.twins, field);
+}
+/* Address of a list, MPS__ROWS_... and so on, whose array on the host is `host`. */
+static inline void *mps__seen_list(const mps__world *w, int32_t list, const void *host)
+{
+    return mps__twins_list_seen((mps__twins *)&w->host.twins, list, host);
+}
+static inline void *mps__given_list(mps__world *w, int32_t list, void *host)
+{
+    return mps__twins_list_given(&w->host.twins, list, host, true);
 }
 /* A stencil with the rows of all particles, from valid lists. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);
