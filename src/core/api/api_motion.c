@@ -53,8 +53,8 @@ static mps_status carry_particles(mps_sim *sim, const mps__motion *old)
     if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) &&
         same(old->centre, m->centre, 3))
         return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, s->ref)); /* a model may move solids in the tank */
-    MPS__TRY(mps__world_write_field(w, s->x));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF)); /* a model may move solids in the tank */
+    MPS__TRY(mps__world_write_field(w, MPS__FIELD_POSITION));
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields, channels and neighbour lists are mirrored in host and device memory. These functions
- * alone track which copy is valid and transfer it. Other arrays are transferred where they are
- * used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
+/* Fields, channels and neighbour lists have mirrors in device memory (array.h). These functions
+ * say when they are copied, and which address a loop gets. Other arrays are transferred where they
+ * are used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
  * (ghosts_there.c), results of reductions (later.c, reaction.c), rigid bodies, voids, grids of
  * auxgrid. Without a device everything is on the host. */
 #ifndef MPS_CORE_ENGINE_H
@@ -95,7 +95,7 @@ bool mps__twins_there(const mps__twins *t);
  * particle order of any later step; the positions of that search. MPS_E_PLUGIN: the copy failed,
  * the host data is invalid. Outside of a step the call may be repeated. */
 mps_status mps__twins_fetch(mps__twins *t);
-mps_status mps__twins_fetch_field(mps__twins *t, const void *array);
+mps_status mps__twins_fetch_field(mps__twins *t, int32_t field);
 mps_status mps__twins_fetch_lists(mps__twins *t);
 mps_status mps__twins_fetch_searched(mps__twins *t);
 /* All fields have new values on the host: discard the device values, also lost ones. */

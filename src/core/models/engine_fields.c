@@ -52,11 +52,9 @@ mps_status mps__twins_fetch(mps__twins *t)
     return fetch(t, 0, t->particles->fields);
 }
 
-mps_status mps__twins_fetch_field(mps__twins *t, const void *array)
+mps_status mps__twins_fetch_field(mps__twins *t, int32_t field)
 {
-    int32_t k = 0;
-    while (k < t->particles->fields && *t->particles->field[k].data != array) k++;
-    return k < t->particles->fields ? fetch(t, k, k + 1) : MPS_OK;
+    return fetch(t, field, field + 1);
 }
 
 void mps__twins_forget(mps__twins *t)

@@ -274,9 +274,9 @@ static bool is_booked(const mps__world *w)
 mps_status mps__budget_update(const mps__world *w, mps__budget *b)
 {
     if (b->started && is_booked(w)) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.x));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.u));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.rho));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_VELOCITY));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_DENSITY));
     if (b->started) {
         mps__budget_book_added(w, b);
         return MPS_OK;

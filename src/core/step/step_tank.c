@@ -197,8 +197,8 @@ mps_status mps__step_place_solids(mps__world *w)
                 mps__plan_has_writer(&w->host.plan, MPS__SOLID_AREA);
     list[MPS__SOLID_PLACE].array.host = list[MPS__SOLID_AREA].array.host = NULL; /* the fields */
     if (!k->bodies) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, s->ref));
-    MPS__TRY(mps__world_fetch_field(w, s->area));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
     MPS__TRY(mps__grow(w->context, (void **)&k->placed, &k->placed_capacity, 0, 2 * count,
                        sizeof *k->placed));
     list[MPS__SOLID_PLACE].array.host = k->placed;

@@ -131,7 +131,7 @@ mps_status mps__world_leave_domain(mps__world *w)
     bool any = true;
     mps_view v;
     if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* solids move in the tank */
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF)); /* solids move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
     if (!w->ahead.holds && mps__world_there(w) && !mps__ranks_many(&w->ranks))

@@ -237,10 +237,10 @@ mps_status mps__world_neighbours_populated(mps__world *w);
  * the last search; the positions of that search. To be called before the host reads them outside of
  * the calls of a step. MPS_E_PLUGIN: only a device has them, and the copy failed. world_fields.c */
 mps_status mps__world_fetch(const mps__world *w);
-mps_status mps__world_fetch_field(const mps__world *w, const void *array);
+mps_status mps__world_fetch_field(const mps__world *w, int32_t field);
 /* Before a public function writes a field: copy it to the host, and invalidate the device's copy.
  * MPS_E_PLUGIN: nothing has changed. world_fields.c */
-mps_status mps__world_write_field(mps__world *w, const void *array);
+mps_status mps__world_write_field(mps__world *w, int32_t field);
 mps_status mps__world_fetch_lists(const mps__world *w);
 mps_status mps__world_fetch_searched(const mps__world *w);
 /* Whether a step begins on the device; whether the device also has the lists of the last search.

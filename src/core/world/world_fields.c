@@ -20,18 +20,15 @@ mps_status mps__world_fetch(const mps__world *w)
     return tell(w, mps__twins_fetch((mps__twins *)&w->host.twins));
 }
 
-mps_status mps__world_fetch_field(const mps__world *w, const void *array)
+mps_status mps__world_fetch_field(const mps__world *w, int32_t field)
 {
-    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, array));
+    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, field));
 }
 
-mps_status mps__world_write_field(mps__world *w, const void *array)
+mps_status mps__world_write_field(mps__world *w, int32_t field)
 {
-    mps__particles *s = &w->particles;
-    MPS__TRY(mps__world_fetch_field(w, array));
-    for (int32_t k = 0; k < s->fields; k++)
-        if (*s->field[k].data == array)
-            mps__array_written(mps__field_array(&s->field[k]), MPS__ON_HOST);
+    MPS__TRY(mps__world_fetch_field(w, field));
+    mps__array_written(mps__field_array(&w->particles.field[field]), MPS__ON_HOST);
     return MPS_OK;
 }
 

@@ -237,7 +237,8 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
 mps_status mps__world_rows(mps__world *w)
 {
     const bool there = mps__world_rows_there(w);
-    if (w->lists.screens.count > 0 || !there) MPS__TRY(mps__world_fetch_field(w, w->particles.x));
+    if (w->lists.screens.count > 0 || !there)
+        MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
     mps__plates_look(w);
     if (there) return rows_there(w);
     MPS__TRY(mps__world_fetch_lists(w));
