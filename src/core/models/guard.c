@@ -62,9 +62,8 @@ static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call
     }
     for (int32_t k = 0; k < h->particles->fields; k++) {
         const mps__field *f = &h->particles->field[k];
-        if (!is_old(h, MPS__CHANNELS + k) &&
-            !may_write(h, call, *f->data, (size_t)f->components * f->size))
-            protect(g, f->name, *f->data, (size_t)f->components * f->size);
+        if (!is_old(h, MPS__CHANNELS + k) && !may_write(h, call, *f->data, mps__field_element(f)))
+            protect(g, f->name, *f->data, mps__field_element(f));
     }
 }
 
