@@ -12,7 +12,7 @@ void mps__array_copy(mps__array *a, int32_t space)
         mps__device_upload(a->device, a->mirror.data, a->host, a->bytes);
     else
         mps__device_download(a->device, a->host, a->mirror.data, a->bytes);
-    if (!a->device->failed) a->seen[space] = a->version;
+    if (!a->device->failed) a->version_in[space] = a->version;
 }
 
 static int32_t other_than(int32_t space)
@@ -23,13 +23,13 @@ static int32_t other_than(int32_t space)
 void mps__array_advanced(mps__array *a, int32_t space)
 {
     const bool ghosts = mps__array_ghosts_valid(a);
-    a->seen[space] = ++a->version;
+    a->version_in[space] = ++a->version;
     if (ghosts) a->ghosts = a->version;
 }
 
 void mps__array_invalidate(mps__array *a, int32_t space)
 {
-    a->seen[space] = -1;
+    a->version_in[space] = -1;
     if (a->bytes > 0)
         mps__device_outdate(a->device, space == MPS__ON_HOST ? a->host : a->mirror.data, a->bytes,
                             a->number);
@@ -53,8 +53,8 @@ void mps__array_release(mps__array *a)
     }
     a->bytes = 0;
     a->device = NULL;
-    a->seen[MPS__ON_HOST] = a->version;
-    a->seen[MPS__ON_DEVICE] = -1;
+    a->version_in[MPS__ON_HOST] = a->version;
+    a->version_in[MPS__ON_DEVICE] = -1;
 }
 
 mps_status mps__array_fit(mps__array *a, mps__device *d, size_t bytes, size_t number)
@@ -68,8 +68,8 @@ mps_status mps__array_fit(mps__array *a, mps__device *d, size_t bytes, size_t nu
     a->device = d;
     a->bytes = bytes;
     a->number = number;
-    a->seen[MPS__ON_HOST] = a->version;
-    a->seen[MPS__ON_DEVICE] = -1;
+    a->version_in[MPS__ON_HOST] = a->version;
+    a->version_in[MPS__ON_DEVICE] = -1;
     return MPS_OK;
 }
 
@@ -78,7 +78,7 @@ void mps__array_exchange(mps__array *a)
     const mps__device_block before = a->mirror;
     a->mirror = a->spare;
     a->spare = before;
-    a->seen[MPS__ON_DEVICE] = a->version;
+    a->version_in[MPS__ON_DEVICE] = a->version;
 }
 
 /* ---- copies ---- */

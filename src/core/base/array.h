@@ -12,14 +12,14 @@ enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES, MPS__NOWHERE = -1 };
 
 typedef struct mps__array {
     void *host;
-    mps__device *device;       /* of the mirror; NULL: there has been none */
-    mps__device_block mirror;  /* its memory */
-    mps__device_block spare;   /* the values before a step, or in another order */
-    size_t bytes;              /* of the values; 0: the mirror is not in use */
-    size_t number;             /* bytes of a number */
-    int64_t version;           /* of the newest values */
-    int64_t seen[MPS__PLACES]; /* version in each memory space */
-    int64_t ghosts;            /* version in which ghosts have the values of their owners */
+    mps__device *device;             /* of the mirror; NULL: there has been none */
+    mps__device_block mirror;        /* its memory */
+    mps__device_block spare;         /* the values before a step, or in another order */
+    size_t bytes;                    /* of the values; 0: the mirror is not in use */
+    size_t number;                   /* bytes of a number */
+    int64_t version;                 /* of the newest values */
+    int64_t version_in[MPS__PLACES]; /* version in each memory space */
+    int64_t ghosts;                  /* version in which ghosts have the values of their owners */
     int32_t kept_in;       /* memory space of a copy for mps__array_restore(), or MPS__NOWHERE */
     void *kept;            /* memory of such a copy on the host */
     int64_t kept_capacity; /* its bytes */
@@ -29,7 +29,7 @@ typedef struct mps__array {
 
 static inline bool mps__array_valid(const mps__array *a, int32_t space)
 {
-    return a->seen[space] == a->version || (space == MPS__ON_HOST && a->bytes == 0);
+    return a->version_in[space] == a->version || (space == MPS__ON_HOST && a->bytes == 0);
 }
 
 static inline bool mps__array_ghosts_valid(const mps__array *a)

@@ -169,7 +169,7 @@ mps_status mps__twins_block(mps__twins *t, int32_t block, void *host, int64_t co
     MPS__TRY(mps__array_fit(a, &t->device, bytes, number));
     a->host = host;
     mps__array_invalidate(a, MPS__ON_DEVICE);
-    if (!values) a->seen[MPS__ON_DEVICE] = a->version;
+    if (!values) a->version_in[MPS__ON_DEVICE] = a->version;
     return MPS_OK;
 }
 
@@ -285,14 +285,14 @@ static void see_flux(mps__twins *t, mps_flux *f)
 void mps__twins_view(mps__twins *t, mps_view *v)
 {
     if (t->place == MPS__ON_HOST) return;
-    const bool seen = v->kind == field_of(t, MPS__FIELD_KIND)->mirror.data,
+    const bool on_device = v->kind == field_of(t, MPS__FIELD_KIND)->mirror.data,
                turned = block_of(t, MPS__TURNED_AREAS, v->area);
     v->kind = mps__twins_seen(t, MPS__FIELD_KIND);
     v->phase = mps__twins_seen(t, MPS__FIELD_PHASE);
     v->id = mps__twins_seen(t, MPS__FIELD_ID);
     v->x = mps__twins_seen(t, MPS__FIELD_POSITION);
     v->wall_of = mps__twins_seen(t, MPS__FIELD_WALL_OF);
-    if (seen) return; /* the other arrays, too, are those of the device */
+    if (on_device) return; /* the other arrays, too, are those of the device */
     if (v->area)
         v->area = turned ? mps__twins_list_seen(t, MPS__TURNED_AREAS, v->area)
                          : mps__twins_seen(t, MPS__FIELD_AREA);
