@@ -15,10 +15,9 @@ enum { FIELDS = sizeof public_fields / sizeof public_fields[0] };
 /* Whether a field is stale on the host; it is not requested. */
 static bool lacks(mps_sim *sim, const char *name)
 {
-    const mps__particles *s = &sim->world.particles;
     const mps__field *f = mps__particles_field(&sim->world.particles, name);
     assert_non_null(f);
-    return sim->world.host.twins.list[MPS__CHANNELS + (f - s->field)].old[MPS__ON_HOST];
+    return !mps__array_valid(&f->array, MPS__ON_HOST);
 }
 
 /* ---- resident and downloaded fields ---- */

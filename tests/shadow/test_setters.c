@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Copies of setters between host and device: only the fields that they change. A coupled run, with
- * a setter before each step, copies as much as the same run without setters. */
-#include "engine_twin.h"
+/* What public functions that set something copy between the host and a device: what they change,
+ * and no other field. A coupled run, which sets something before each step, copies what the same
+ * run without setters copies. */
+#include "engine.h"
 #include "setter_calls.h"
 #include <dirent.h>
 #include <stdlib.h>
@@ -83,8 +84,8 @@ static int64_t bytes_of(const mps_sim *sim, int32_t fields)
 
 static bool is_invalid(mps_sim *sim, int32_t field)
 {
-    const mps__twin *twin = mps__twin_of_field(&sim->world.host.twins, field);
-    return twin->bytes > 0 && twin->old[MPS__ON_DEVICE];
+    const mps__array *a = &sim->world.particles.field[field].array;
+    return a->bytes > 0 && !mps__array_valid(a, MPS__ON_DEVICE);
 }
 
 /* After a call the written fields are stale on the device, in addition to those that were
@@ -97,7 +98,6 @@ static void check_fields(mps_sim *sim, const setter *r, const bool *before)
     } known[] = {
         {"position", X}, {"velocity", U}, {"density", RHO}, {"mark", MARK}, {"pressure", P}};
     const mps__particles *s = &sim->world.particles;
-    assert_true(sim->world.host.twins.changes == s->changes); /* else all are */
     for (int32_t k = 0; k < s->fields; k++) {
         int32_t field = 0;
         for (int i = 0; i < 5; i++)
@@ -314,10 +314,9 @@ static mps_sim *coupled(int32_t dim, const coupling *c, shadow *s)
 /* Fields that are valid on the device; -1: all are uploaded again. */
 static int64_t count_valid(mps_sim *sim)
 {
-    const mps__twins *t = &sim->world.host.twins;
     int64_t valid = 0;
     for (int32_t k = 0; k < sim->world.particles.fields; k++) valid += !is_invalid(sim, k);
-    return t->changes == sim->world.particles.changes ? valid : -1;
+    return valid;
 }
 
 /* Set, step and ask for the load, as a coupled program does. */

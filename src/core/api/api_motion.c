@@ -53,8 +53,8 @@ static mps_status carry_particles(mps_sim *sim, const mps__motion *old)
     if (same(old->now.state.value, m->now.state.value, MPS_DOF_COUNT) &&
         same(old->centre, m->centre, 3))
         return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, s->ref)); /* a model may move solids in the tank */
-    MPS__TRY(mps__world_write_field(w, s->x));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF)); /* a model may move solids in the tank */
+    MPS__TRY(mps__world_write_field(w, MPS__FIELD_POSITION));
     for (int64_t i = 0; i < s->n; i++) {
         double X[3], *x = &s->x[i * s->dim];
         if (s->kind[i] == MPS_FLUID)
@@ -88,7 +88,7 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
         return status;
     }
     /* the limits predicted by the last step used velocities relative to the tank */
-    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.changes = -1;
+    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.flow = -1;
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
     if (!goes_on) w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;

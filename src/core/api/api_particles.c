@@ -356,8 +356,9 @@ mps_status mps_lease_begin(mps_sim *sim, const char *field, int32_t mode, mps_le
     if (f->writer || (mode == MPS_WRITE && f->readers > 0))
         return mps__fail(c, MPS_E_BUSY, "field '%s' is leased already, for %s", field,
                          f->writer ? "writing" : "reading");
-    MPS__TRY(mode == MPS_WRITE ? mps__world_write_field(&sim->world, *f->data)
-                               : mps__world_fetch_field(&sim->world, *f->data));
+    const int32_t k = (int32_t)(f - sim->world.particles.field);
+    MPS__TRY(mode == MPS_WRITE ? mps__world_write_field(&sim->world, k)
+                               : mps__world_fetch_field(&sim->world, k));
     const mps_lease open = lease_of(&sim->world.particles, f, mode);
     MPS__TRY(mps__struct_out(c, "mps_lease", lease, &open, sizeof open));
     if (mode == MPS_WRITE)

@@ -203,11 +203,11 @@ static mps_status set_density(mps__world *w, int32_t phase, double density)
 {
     mps__particles *s = &w->particles;
     bool differs = false;
-    MPS__TRY(mps__world_fetch_field(w, s->rho));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_DENSITY));
     for (int64_t i = 0; i < s->n; i++)
         differs = differs || (s->phase[i] == phase && s->rho[i] != density);
     if (!differs) return MPS_OK;
-    MPS__TRY(mps__world_write_field(w, s->rho));
+    MPS__TRY(mps__world_write_field(w, MPS__FIELD_DENSITY));
     for (int64_t i = 0; i < s->n; i++)
         if (s->phase[i] == phase) s->rho[i] = density;
     return MPS_OK;

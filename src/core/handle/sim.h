@@ -71,11 +71,11 @@ static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
 /* Start of a public function that steps, or replaces all fields. */
 #define MPS__STEPS(sim) MPS__SETS(sim)
 /* Start of a public function that adds or removes particles, or copies all fields to the host. */
-#define MPS__CHANGES(sim)                          \
-    do {                                           \
-        MPS__SETS(sim);                            \
-        MPS__TRY(mps__world_fetch(&(sim)->world)); \
-        (sim)->world.particles.changes++;          \
+#define MPS__CHANGES(sim)                                \
+    do {                                                 \
+        MPS__SETS(sim);                                  \
+        MPS__TRY(mps__world_fetch(&(sim)->world));       \
+        mps__particles_written(&(sim)->world.particles); \
     } while (0)
 /* Refuse geometry after the ranks have divided the particles: it needs all particles. */
 static inline mps_status mps__sim_whole(const mps_sim *sim, const char *call)

@@ -73,11 +73,6 @@ static bool has_series(const mps__probe *p)
     return !p->removed && (p->config.average != 0 || p->config.rate > 0);
 }
 
-static size_t element(const mps__field *f)
-{
-    return (size_t)f->components * f->size;
-}
-
 /* Fields of ranks are not stored but rebuilt: the file is the same for any number of ranks. */
 static bool is_stored(const mps__world *w, int32_t field)
 {
@@ -94,7 +89,7 @@ static void put_particles(const mps__world *w, mps__archive *a)
     for (int32_t k = 0; k < s->fields; k++)
         if (is_stored(w, k))
             mps__archive_put(a, title(name, "field", s->field[k].name), *s->field[k].data,
-                             element(&s->field[k]), s->n);
+                             mps__field_element(&s->field[k]), s->n);
     const bool linked = w->lists.linked == s->solids, listed = w->lists.listed == s->generation;
     const lists have = {linked,
                         linked && listed && (w->lists.neighbours.valid || w->lists.listed_at)};
@@ -265,7 +260,7 @@ static mps_status find_particles(arrival *v)
         title(name, "field", s->field[k].name);
         if (!is_stored(&v->sim->world, k) || (s->field[k].passing && !mps__archive_has(v->a, name)))
             continue;
-        v->arrived.field[k] = part(v, name, element(&s->field[k]), v->n);
+        v->arrived.field[k] = part(v, name, mps__field_element(&s->field[k]), v->n);
         if (!v->arrived.field[k]) return MPS_E_VERSION;
     }
     const void *have = part(v, "lists", sizeof v->have, 1);

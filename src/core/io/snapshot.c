@@ -16,11 +16,6 @@ static int32_t fields_of(const mps__particles *s)
     return s->fields - (strcmp(s->field[s->fields - 1].name, listed_field) == 0);
 }
 
-static size_t bytes_of(const mps__field *f)
-{
-    return (size_t)f->components * f->size;
-}
-
 /* Positions of the last search if its candidates are valid, else NULL. */
 static const double *searched_at(mps__world *w)
 {
@@ -36,11 +31,11 @@ static const double *searched_at(mps__world *w)
 
 static mps_status reserve_field(mps__context *c, mps__copy *to, const mps__field *from, int64_t n)
 {
-    if (to->bytes != bytes_of(from)) { /* other models added the fields */
+    if (to->bytes != mps__field_element(from)) { /* other models added the fields */
         mps__free(c, to->data);
         to->data = NULL;
         to->capacity = 0;
-        to->bytes = bytes_of(from);
+        to->bytes = mps__field_element(from);
     }
     return mps__grow(c, (void **)&to->data, &to->capacity, 0, n, to->bytes);
 }
@@ -157,7 +152,7 @@ static mps_status check_setup(mps_snapshot *k)
     same = k->fields == fields_of(s);
     for (int32_t f = 0; same && f < k->fields; f++)
         same = strcmp(k->field[f].name, s->field[f].name) == 0 &&
-               k->field[f].bytes == bytes_of(&s->field[f]);
+               k->field[f].bytes == mps__field_element(&s->field[f]);
     return same ? MPS_OK : changed(k, "fields of the particles");
 }
 
@@ -265,7 +260,6 @@ static void restore_particles(mps_snapshot *k, const arrival *a)
         copy_fields(k);
     else
         fill_store(k);
-    s->changes++;
     mps__twins_forget(&w->host.twins);
     s->next_id = k->next_id;
     s->written = k->written;

@@ -355,9 +355,9 @@ static double topmost(const line *l)
 mps_status mps__gauge_measure(mps__world *w, const mps_probe *config, double *value)
 {
     line l;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.x));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.area));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.region));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REGION));
     line_init(&l, w, config);
     mps_status status = line_collect(&l, w, liquid_phases(w, config));
     if (status == MPS_OK) {

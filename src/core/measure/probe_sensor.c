@@ -319,7 +319,7 @@ mps_status mps__sensor_read(mps__world *w, const mps_probe *config, mps__sensor 
 {
     const mps__particles *s = &w->particles;
     double sum = 0;
-    MPS__TRY(mps__world_fetch_field(w, s->load));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_WALL_PRESSURE));
     if (is_old(w, sensor)) MPS__TRY(mps__world_fetch(w));
     if (is_old(w, sensor)) MPS__TRY(build_again(w, config, sensor));
     double *p = mps__scratch_take(w->context, &w->scratch, 0, sensor->count, sizeof *p);

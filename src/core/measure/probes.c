@@ -332,8 +332,8 @@ static mps_status prepare(mps__world *w, const mps__probes *all, mps__probe *p,
                           mps__sensor_place *place)
 {
     MPS__TRY(take_name(w->context, all, p));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.ref));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.area));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
     MPS__TRY(mps__gather_solids(w));
     mps_status status = check_probe(w, &p->config, place);
     if (status == MPS_OK) status = complete(w, p);
@@ -412,9 +412,9 @@ mps_status mps__probe_measure(mps__world *w, mps__probe *p, double *values)
     case MPS_PROBE_FLUID_PRESSURE:
         return mps__fluid_measure(w, &p->config, values);
     default:
-        MPS__TRY(mps__world_fetch_field(w, w->particles.x));
-        MPS__TRY(mps__world_fetch_field(w, w->particles.area));
-        MPS__TRY(mps__world_fetch_field(w, w->particles.load));
+        MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
+        MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
+        MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_WALL_PRESSURE));
         measure_force(w, p, values);
         return MPS_OK;
     }

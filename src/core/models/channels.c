@@ -272,6 +272,7 @@ static mps_status bring(mps__channels *c, mps__particles *s, const char *model,
 static void drop(mps__channels *c, int32_t k)
 {
     if (k < MPS__OWN_CHANNELS || --c->list[k].users > 0) return;
+    mps__array_release(&c->list[k].array);
     memmove(&c->list[k], &c->list[k + 1], (size_t)(c->count - k - 1) * sizeof c->list[0]);
     c->count--;
 }
@@ -324,16 +325,25 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n)
     for (int32_t k = 0; k < c->count; k++) {
         mps__channel *own_array = &c->list[k];
         if (own_array->where != MPS__IN_ARENA) continue;
-        own_array->array = own_array->offset < 0 ? NULL : c->arena + own_array->offset * even;
-        if (mps__channel_is_scalar(own_array)) own_array->array = &own_array->scalar;
+        own_array->array.host = own_array->offset < 0 ? NULL : c->arena + own_array->offset * even;
+        if (mps__channel_is_scalar(own_array)) own_array->array.host = &own_array->scalar;
     }
     return MPS_OK;
+}
+
+/* Field of the solids' positions and areas; they have another array only in a step in which models
+ * write them. */
+static int32_t solid_field(int32_t channel)
+{
+    return channel == MPS__SOLID_PLACE ? MPS__FIELD_REF : MPS__FIELD_AREA;
 }
 
 mps__field *mps__channels_field(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k >= MPS__CHANNELS) return &s->field[k - MPS__CHANNELS];
     if (c->list[k].where != MPS__IN_FIELD || mps__channel_is_scalar(&c->list[k])) return NULL;
+    if (k == MPS__SOLID_PLACE || k == MPS__SOLID_AREA)
+        return c->list[k].array.host ? NULL : &s->field[solid_field(k)];
     mps__field *f = &s->field[c->list[k].field];
     return strcmp(f->name, c->list[k].spec.name) == 0
                ? f
@@ -348,21 +358,22 @@ void mps__channels_find_fields(mps__channels *c, mps__particles *s)
     }
 }
 
-bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k)
+mps__array *mps__channels_of(mps__channels *c, mps__particles *s, int32_t k)
 {
+    if (k < 0 || (k < MPS__CHANNELS && mps__channel_is_scalar(&c->list[k]))) return NULL;
     mps__field *f = mps__channels_field(c, s, k);
-    return f ? &f->stale : &c->list[k].stale;
+    return f ? mps__field_array(f) : &c->list[k].array;
 }
 
 size_t mps__channels_bytes(const mps__channels *c, const mps__particles *s, int32_t k)
 {
     if (k < MPS__CHANNELS) return mps__channel_element(&c->list[k]);
-    return (size_t)s->field[k - MPS__CHANNELS].components * s->field[k - MPS__CHANNELS].size;
+    return mps__field_element(&s->field[k - MPS__CHANNELS]);
 }
 
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k)
 {
     if (k < 0) return NULL;
     const mps__field *f = mps__channels_field(c, s, k);
-    return f ? *f->data : c->list[k].array;
+    return f ? *f->data : c->list[k].array.host;
 }

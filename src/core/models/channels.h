@@ -67,9 +67,8 @@ typedef struct mps__channel {
     int32_t where;          /* MPS__IN_... */
     int32_t field;          /* of MPS__IN_FIELD: index of the field, found when the plan is made */
     int64_t offset;         /* of MPS__IN_ARENA: offset in bytes per particle; -1: unused */
-    bool stale;    /* owners have newer values than ghosts; MPS_LIFE_PARTICLE: see the field */
-    void *array;   /* array in this step; MPS_LIFE_PARTICLE: NULL, see the field */
-    double scalar; /* value of a scalar of a model */
+    mps__array array;       /* array in this step; not used if a field has the values */
+    double scalar;          /* value of a scalar of a model */
 } mps__channel;
 
 typedef struct mps__channels {
@@ -112,10 +111,9 @@ void mps__channels_find_fields(mps__channels *c, mps__particles *s);
 size_t mps__channel_element(const mps__channel *k);
 /* Bytes per particle of channel k of the list, or of a field of the user. */
 size_t mps__channels_bytes(const mps__channels *c, const mps__particles *s, int32_t k);
-/* Whether owners have newer values than ghosts: of channel k of the list, or of a field of the
- * user. */
-bool *mps__channels_stale(mps__channels *c, mps__particles *s, int32_t k);
-/* Array of channel k; of a field of the user for k >= MPS__CHANNELS; NULL for -1. */
+/* Array of channel k; of a field of the user for k >= MPS__CHANNELS; NULL for scalars and -1. */
+mps__array *mps__channels_of(mps__channels *c, mps__particles *s, int32_t k);
+/* This array, or the scalar, on the host; NULL for -1. */
 void *mps__channels_array(const mps__channels *c, mps__particles *s, int32_t k);
 
 #endif

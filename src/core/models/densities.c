@@ -4,6 +4,13 @@
 #include <math.h>
 #include <string.h>
 
+/* Another number if densities, kinds or phases have changed. */
+static int64_t versions_of(const mps__particles *s)
+{
+    return s->field[MPS__FIELD_DENSITY].array.version + s->field[MPS__FIELD_KIND].array.version +
+           s->field[MPS__FIELD_PHASE].array.version;
+}
+
 /* On the host also for steps on a device: no step changes densities, kinds or phases there. */
 static void look(mps__densities *d, const mps__particles *s, const mps__ghosts *g)
 {
@@ -14,7 +21,7 @@ static void look(mps__densities *d, const mps__particles *s, const mps__ghosts *
         own[0] = fmax(own[0], -s->rho[i]);
         own[MPS__PHASES] = fmax(own[MPS__PHASES], s->rho[i]);
     }
-    d->changes = s->changes;
+    d->versions = versions_of(s);
     d->generation = s->generation;
 }
 
@@ -22,7 +29,7 @@ void mps__densities_find(mps__densities *d, const mps__particles *s, const mps__
 {
     double most[2 * MPS__PHASES];
     if (d->agreed) return;
-    if (d->changes != s->changes || d->generation != s->generation) look(d, s, g);
+    if (d->versions != versions_of(s) || d->generation != s->generation) look(d, s, g);
     memcpy(most, d->most, sizeof most);
     mps__ranks_max(g->ranks, 2 * MPS__PHASES, most);
     for (int p = 0; p < MPS__PHASES; p++) {
@@ -31,11 +38,6 @@ void mps__densities_find(mps__densities *d, const mps__particles *s, const mps__
         d->greatest[p] = any ? most[MPS__PHASES + p] : 0;
     }
     d->agreed = true;
-}
-
-void mps__densities_kept(mps__densities *d, const mps__particles *s, int64_t changes)
-{
-    if (d->changes == changes) d->changes = s->changes;
 }
 
 void mps_stage_densities(const mps_stage *s, double *least, double *greatest)

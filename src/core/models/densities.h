@@ -9,14 +9,12 @@
 typedef struct mps__densities {
     double least[MPS__PHASES], greatest[MPS__PHASES]; /* of all ranks; 0: no fluid of that phase */
     double most[2 * MPS__PHASES]; /* of this rank: -least, greatest; -INFINITY without fluid */
-    int64_t changes, generation;  /* of the particles when this rank computed `most`; -1: never */
-    bool agreed;                  /* the values are reduced over all ranks */
+    /* of the particles when this rank computed `most`: versions of three fields; -1: never */
+    int64_t versions, generation;
+    bool agreed; /* the values are reduced over all ranks */
 } mps__densities;
 
 /* Compute the values of all ranks (collective). */
 void mps__densities_find(mps__densities *d, const mps__particles *s, const mps__ghosts *g);
-/* The densities of this rank's particles did not change, except perhaps their order; `changes`:
- * mps__particles.changes before. */
-void mps__densities_kept(mps__densities *d, const mps__particles *s, int64_t changes);
 
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Fields, channels and neighbour lists are mirrored in host and device memory. These functions
- * alone track which copy is valid and transfer it. Other arrays are transferred where they are
- * used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
+/* Fields, channels and neighbour lists have mirrors in device memory (array.h). These functions
+ * say when they are copied, and which address a loop gets. Other arrays are transferred where they
+ * are used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
  * (ghosts_there.c), results of reductions (later.c, reaction.c), rigid bodies, voids, grids of
  * auxgrid. Without a device everything is on the host. */
 #ifndef MPS_CORE_ENGINE_H
@@ -11,8 +11,6 @@
 #include "ghosts.h"
 #include "plan.h"
 #include <mps/stage.h>
-
-enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES };
 
 /* Arrays of a step that are neither channels nor fields: neighbour lists, pairs hidden by thin
  * plates, rotated wetted areas. */
@@ -36,18 +34,6 @@ enum {
     MPS__BLOCKS
 };
 
-/* An array mirrored in host and device memory. */
-typedef struct mps__twin {
-    int64_t field;           /* of fields: mps__field.serial */
-    void *host;              /* NULL: the array of a channel, which may move */
-    void *data;              /* device array */
-    size_t room;             /* its capacity in bytes */
-    size_t bytes;            /* bytes of the values; 0: unused in this step */
-    size_t number;           /* bytes of a number */
-    bool old[MPS__PLACES];   /* stale: the other memory space has newer values */
-    mps__device_block spare; /* of fields: values before the step, or in another order */
-} mps__twin;
-
 typedef struct mps__twins {
     mps__device device;
     mps_device_info last; /* device counters of the last step */
@@ -55,21 +41,19 @@ typedef struct mps__twins {
     bool open;            /* loops may run on the device */
     int64_t listed;       /* search whose lists are mirrored; -1: none */
     bool torn;            /* the host's lists are incomplete or not of the last search */
-    int64_t changes;      /* mps__particles.changes for which field mirrors are valid */
     /* not empty: the state was only on the device and is lost; the error text */
     char gone[MPS__ERROR_SIZE];
     int32_t place;                         /* memory space where loops run now */
     mps_parallel *parallel, host_parallel; /* of the handle; its host value */
     mps__channels *channels;
     mps__particles *particles;
-    mps__twin list[MPS__CHANNELS + MPS__FIELDS_MAX]; /* of channels, then of fields */
-    mps__twin block[MPS__BLOCKS];
-    mps__twin scratch[MPS__SCRATCH]; /* of verbs */
-    mps__twin order;                 /* of a permutation */
-    mps__twin results;               /* sums and maxima not yet copied to the host */
-    mps__twin constants;             /* settings of models, viscosities, surface tensions */
-    double *constant;                /* their values at the last copy */
-    int64_t told;                    /* mps__models.changes at the last log message; -1: never */
+    mps__array block[MPS__BLOCKS];
+    mps__array scratch[MPS__SCRATCH]; /* of verbs */
+    mps__array order;                 /* of a permutation */
+    mps__array results;               /* sums and maxima not yet copied to the host */
+    mps__array constants;             /* settings of models, viscosities, surface tensions */
+    double *constant;                 /* their values at the last copy */
+    int64_t told;                     /* mps__models.changes at the last log message; -1: never */
     /* the same counter for the log message about the pressure equation */
     int64_t told_solution;
 } mps__twins;
@@ -111,33 +95,24 @@ bool mps__twins_there(const mps__twins *t);
  * particle order of any later step; the positions of that search. MPS_E_PLUGIN: the copy failed,
  * the host data is invalid. Outside of a step the call may be repeated. */
 mps_status mps__twins_fetch(mps__twins *t);
-mps_status mps__twins_fetch_field(mps__twins *t, const void *array);
+mps_status mps__twins_fetch_field(mps__twins *t, int32_t field);
 mps_status mps__twins_fetch_lists(mps__twins *t);
 mps_status mps__twins_fetch_searched(mps__twins *t);
-/* The host changed a field that was valid on the host. */
-void mps__twins_changed(mps__twins *t, const void *array);
-/* The host changed only this field; `changes`: mps__particles.changes before. */
-void mps__twins_changed_alone(mps__twins *t, const void *array, int64_t changes);
 /* All fields have new values on the host: discard the device values, also lost ones. */
 void mps__twins_forget(mps__twins *t);
 /* MPS_E_PLUGIN: a device failure lost the state. */
 mps_status mps__twins_alive(const mps__twins *t);
-/* Save a field on the device for mps__twins_restore() if only the device has it; else set `kept` to
- * false. MPS_E_NOMEM, MPS_E_PLUGIN */
-mps_status mps__twins_keep(mps__twins *t, int32_t field, bool *kept);
-/* After a failed step: restore the saved field; without a saved copy the host values are valid. */
-void mps__twins_restore(mps__twins *t, int32_t field, bool kept);
-/* All fields are restored. MPS_E_PLUGIN: the restore on the device failed and the state is lost;
+/* After a failed step fields were restored on the device. MPS_E_PLUGIN: the restore on the device failed and the state is lost;
  * `time`: time of the state. */
 mps_status mps__twins_restored(mps__twins *t, double time);
 /* Permute the device fields by `order` [n] into spare buffers; `there`: NULL, or the order on the
- * device. The fields themselves do not change yet. MPS_E_NOMEM, MPS_E_PLUGIN */
-mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t *there);
-/* The host particles were permuted: use the spare buffers; `changes`: mps__particles.changes
- * before. */
-void mps__twins_permuted(mps__twins *t, int64_t changes);
-/* Which fields are stale on the host, [fields]. */
-void mps__twins_old(mps__twins *t, bool *old);
+ * device. The fields themselves do not change yet. `moved` [fields]: those permuted here; `old`
+ * [fields]: those that the host must not permute, as the device alone has them. MPS_E_NOMEM,
+ * MPS_E_PLUGIN */
+mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t *there,
+                              bool *moved, bool *old);
+/* The host particles were permuted: use the spare buffers. */
+void mps__twins_permuted(mps__twins *t, const bool *moved);
 /* Invalidate the mirrors of the lists. */
 void mps__twins_rows_drop(mps__twins *t);
 /* Invalidate them after a device failure: the host may lack candidates then. */
@@ -148,11 +123,14 @@ void mps__twins_rows_lose(mps__twins *t);
 /* Set the memory space where loops run; always the host outside of a step. @return the previous
  * one */
 int32_t mps__twins_go(mps__twins *t, int32_t place);
-/* Address of a field or block array for loops in the current memory space, with its newest values;
- * other arrays are returned unchanged. */
-void *mps__twins_seen(mps__twins *t, const void *array);
-/* Address of an array that loops write. `all`: they write every value that is read afterwards. */
-void *mps__twins_given(mps__twins *t, void *array, bool all);
+/* Address of a field for loops in the current memory space that read it, with its newest values; for
+ * loops that write all values that are read afterwards. */
+void *mps__twins_seen(mps__twins *t, int32_t field);
+void *mps__twins_given(mps__twins *t, int32_t field);
+/* Address of a block; `host`: its array on the host, which is returned if the block is not mirrored
+ * in this step. `all`: the loops write all values that are read afterwards. */
+void *mps__twins_list_seen(mps__twins *t, int32_t block, const void *host);
+void *mps__twins_list_given(mps__twins *t, int32_t block, void *host, bool all);
 /* Set the arrays of a view to the current memory space; the second function also those of
  * constants. */
 void mps__twins_view(mps__twins *t, mps_view *v);
@@ -160,7 +138,7 @@ void mps__twins_loop_view(mps__twins *t, int32_t model, mps_view *v);
 /* An mps__results on the device. */
 static inline void *mps__twins_results(const mps__twins *t)
 {
-    return t->results.data;
+    return t->results.mirror.data;
 }
 /* Zeroed block of device scratch for a verb. NULL: out of memory. */
 void *mps__twins_scratch(mps__twins *t, int32_t block, size_t bytes);

@@ -1,12 +1,20 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Mirrored fields and lists of the particles, during a step and between steps: they stay on the
  * device until the host requests them. */
-#include "engine_twin.h"
+#include "engine.h"
 #include <stdio.h>
 
 bool mps__twins_there(const mps__twins *t)
 {
-    return t->step && t->changes == t->particles->changes;
+    bool any = false;
+    for (int32_t k = 0; t->step && k < t->particles->fields && !any; k++)
+        any = mps__array_valid(&t->particles->field[k].array, MPS__ON_DEVICE);
+    return any;
+}
+
+static mps__array *field_of(mps__twins *t, int32_t field)
+{
+    return mps__field_array(&t->particles->field[field]);
 }
 
 /* ---- to the host ---- */
@@ -35,8 +43,7 @@ static mps_status fetch(mps__twins *t, int32_t first, int32_t end)
 {
     const mps_device_info before = t->device.info;
     MPS__TRY(mps__twins_alive(t));
-    for (int32_t k = first; k < end; k++)
-        mps__twin_copy(t, mps__twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
+    for (int32_t k = first; k < end; k++) mps__array_copy(field_of(t, k), MPS__ON_HOST);
     return came(t, &before);
 }
 
@@ -45,41 +52,20 @@ mps_status mps__twins_fetch(mps__twins *t)
     return fetch(t, 0, t->particles->fields);
 }
 
-mps_status mps__twins_fetch_field(mps__twins *t, const void *array)
+mps_status mps__twins_fetch_field(mps__twins *t, int32_t field)
 {
-    int32_t k = 0;
-    while (k < t->particles->fields && *t->particles->field[k].data != array) k++;
-    return k < t->particles->fields ? fetch(t, k, k + 1) : MPS_OK;
-}
-
-void mps__twins_changed(mps__twins *t, const void *array)
-{
-    for (int32_t k = 0; k < t->particles->fields; k++) {
-        mps__twin *twin = mps__twin_of_field(t, k);
-        void *host = *t->particles->field[k].data;
-        if (host == array && twin->bytes > 0) mps__twin_change(t, twin, host, MPS__ON_HOST, true);
-    }
-}
-
-void mps__twins_changed_alone(mps__twins *t, const void *array, int64_t changes)
-{
-    if (t->changes != changes) return;
-    mps__twins_changed(t, array);
-    t->changes = t->particles->changes;
+    return fetch(t, field, field + 1);
 }
 
 void mps__twins_forget(mps__twins *t)
 {
-    for (int32_t k = 0; k < t->particles->fields; k++)
-        mps__twin_of_field(t, k)->old[MPS__ON_HOST] = false;
-    t->changes = -1;
+    mps__particles_written(t->particles);
     t->gone[0] = 0;
 }
 
 static void blocks_ready(mps__twins *t, int32_t end)
 {
-    for (int32_t k = 0; k < end; k++)
-        mps__twin_copy(t, &t->block[k], t->block[k].host, MPS__ON_HOST);
+    for (int32_t k = 0; k < end; k++) mps__array_copy(&t->block[k], MPS__ON_HOST);
     t->torn = t->device.failed;
 }
 
@@ -87,8 +73,7 @@ static void blocks_ready(mps__twins *t, int32_t end)
  * the host already has. */
 static bool lacks_candidates(const mps__twins *t)
 {
-    const mps__twin *rim = &t->block[MPS__RIM_ROWS];
-    return t->torn || (rim->bytes > 0 && rim->old[MPS__ON_HOST]);
+    return t->torn || !mps__array_valid(&t->block[MPS__RIM_ROWS], MPS__ON_HOST);
 }
 
 mps_status mps__twins_fetch_lists(mps__twins *t)
@@ -102,9 +87,8 @@ mps_status mps__twins_fetch_lists(mps__twins *t)
 mps_status mps__twins_fetch_searched(mps__twins *t)
 {
     const mps_device_info before = t->device.info;
-    mps__twin *twin = &t->block[MPS__SEARCHED];
     MPS__TRY(mps__twins_alive(t));
-    mps__twin_copy(t, twin, twin->host, MPS__ON_HOST);
+    mps__array_copy(&t->block[MPS__SEARCHED], MPS__ON_HOST);
     return came(t, &before);
 }
 
@@ -127,7 +111,7 @@ void mps__twins_rows_drop(mps__twins *t)
 
 void mps__twins_rows_lose(mps__twins *t)
 {
-    const mps__twin searched = t->block[MPS__SEARCHED];
+    const mps__array searched = t->block[MPS__SEARCHED];
     const bool torn = lacks_candidates(t);
     mps__twins_rows_drop(t);
     t->torn = torn;
@@ -135,25 +119,6 @@ void mps__twins_rows_lose(mps__twins *t)
 }
 
 /* ---- a failed step ---- */
-
-mps_status mps__twins_keep(mps__twins *t, int32_t field, bool *kept)
-{
-    mps__twin *twin = mps__twin_of_field(t, field);
-    *kept = mps__twins_there(t) && twin->bytes > 0 && twin->old[MPS__ON_HOST];
-    if (!*kept) return MPS_OK;
-    if (!mps__device_fit(&t->device, &twin->spare, twin->bytes)) return MPS_E_NOMEM;
-    mps__device_copy(&t->device, twin->spare.data, twin->data, twin->bytes);
-    return mps__device_status(&t->device);
-}
-
-void mps__twins_restore(mps__twins *t, int32_t field, bool kept)
-{
-    mps__twin *twin = mps__twin_of_field(t, field);
-    void *host = *t->particles->field[field].data;
-    if (twin->bytes == 0) return;
-    if (kept) mps__device_copy(&t->device, twin->data, twin->spare.data, twin->bytes);
-    mps__twin_change(t, twin, host, kept ? MPS__ON_DEVICE : MPS__ON_HOST, true);
-}
 
 mps_status mps__twins_restored(mps__twins *t, double time)
 {
@@ -169,110 +134,94 @@ mps_status mps__twins_restored(mps__twins *t, double time)
 
 /* ---- permutation ---- */
 
-static bool moves(const mps__twin *twin)
-{
-    return twin->bytes > 0 && !twin->old[MPS__ON_DEVICE];
-}
-
-static mps_status permute_field(mps__twins *t, mps__twin *twin, const mps__field *f,
+static mps_status permute_field(mps__twins *t, mps__array *a, const mps__field *f,
                                 const int32_t *order)
 {
-    if (!moves(twin)) return MPS_OK;
-    if (!mps__device_fit(&t->device, &twin->spare, twin->bytes)) return MPS_E_NOMEM;
-    mps__particles_gather(t->parallel, twin->spare.data, twin->data, t->particles->n, order,
-                          (size_t)f->components * f->size);
+    if (!mps__device_fit(&t->device, &a->spare, a->bytes)) return MPS_E_NOMEM;
+    mps__particles_gather(t->parallel, a->spare.data, a->mirror.data, t->particles->n, order,
+                          mps__field_element(f));
     return MPS_OK;
 }
 
-mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t *there)
+mps_status mps__twins_permute(mps__twins *t, const int32_t *order, const int32_t *there,
+                              bool *moved, bool *old)
 {
     mps__particles *s = t->particles;
     mps_status status = MPS_OK;
-    if (!mps__twins_there(t) || s->n == 0) return MPS_OK;
+    const bool any = mps__twins_there(t) && s->n > 0;
+    for (int32_t k = 0; k < s->fields; k++) {
+        old[k] = !mps__array_valid(field_of(t, k), MPS__ON_HOST);
+        /* new indices of walls are found on the host */
+        moved[k] = any && k != MPS__FIELD_WALL_OF &&
+                   mps__array_valid(field_of(t, k), MPS__ON_DEVICE);
+    }
+    if (!any) return MPS_OK;
     MPS__TRY(mps__twins_enter(t));
     if (!there) {
-        status = mps__twin_fit(t, &t->order, (size_t)s->n * sizeof *order, sizeof *order);
-        if (status == MPS_OK) mps__device_upload(&t->device, t->order.data, order, t->order.bytes);
-        there = t->order.data;
+        status = mps__array_fit(&t->order, &t->device, (size_t)s->n * sizeof *order, sizeof *order);
+        if (status == MPS_OK)
+            mps__device_upload(&t->device, t->order.mirror.data, order, t->order.bytes);
+        there = t->order.mirror.data;
     }
     for (int32_t k = 0; k < s->fields && status == MPS_OK; k++)
-        status = permute_field(t, mps__twin_of_field(t, k), &s->field[k], there);
+        if (moved[k]) status = permute_field(t, field_of(t, k), &s->field[k], there);
     const mps_status left = mps__twins_leave(t);
     return status < 0 ? status : left;
 }
 
-void mps__twins_old(mps__twins *t, bool *old)
+void mps__twins_permuted(mps__twins *t, const bool *moved)
 {
-    for (int32_t k = 0; k < t->particles->fields; k++) {
-        const mps__twin *twin = mps__twin_of_field(t, k);
-        old[k] = twin->bytes > 0 && twin->old[MPS__ON_HOST];
-    }
-}
-
-void mps__twins_permuted(mps__twins *t, int64_t changes)
-{
-    const mps__particles *s = t->particles;
-    if (!t->step || t->changes != changes) return;
-    for (int32_t k = 0; k < s->fields; k++) {
-        mps__twin *twin = mps__twin_of_field(t, k);
-        const mps__twin before = *twin;
-        if (!moves(twin)) continue;
-        twin->data = before.spare.data;
-        twin->room = before.spare.bytes;
-        twin->spare = (mps__device_block){before.data, before.room};
-        /* indices of walls have changed */
-        if (s->changes != changes && s->field[k].data == (void **)&s->wall_of)
-            mps__twins_changed(t, s->wall_of);
-    }
-    t->changes = s->changes;
+    for (int32_t k = 0; k < t->particles->fields; k++)
+        if (moved[k]) mps__array_exchange(field_of(t, k));
 }
 
 /* ---- values ---- */
 
+static mps__array *array_of(mps__twins *t, int32_t channel)
+{
+    return mps__channels_of(t->channels, t->particles, channel);
+}
+
 void mps__twins_ready(mps__twins *t, int32_t channel, int32_t place)
 {
-    mps__twin *twin = t->open ? mps__twin_of(t, channel) : NULL;
-    if (twin)
-        mps__twin_copy(t, twin, mps__channels_array(t->channels, t->particles, channel), place);
+    mps__array *a = t->open ? array_of(t, channel) : NULL;
+    if (a) mps__array_copy(a, place);
 }
 
 void mps__twins_fields_ready(mps__twins *t)
 {
     for (int32_t k = 0; t->open && k < t->particles->fields; k++)
-        mps__twin_copy(t, mps__twin_of_field(t, k), *t->particles->field[k].data, MPS__ON_HOST);
+        mps__array_copy(field_of(t, k), MPS__ON_HOST);
 }
 
 void mps__twins_written(mps__twins *t, int32_t channel, int32_t place)
 {
-    mps__twin *twin = t->open ? mps__twin_of(t, channel) : NULL;
-    void *host = mps__channels_array(t->channels, t->particles, channel);
-    if (twin) mps__twin_change(t, twin, host, place, true);
+    mps__array *a = array_of(t, channel);
+    if (a) mps__array_written(a, place);
 }
 
-/* Use the device if both copies are valid. */
-static mps__shared shared_of(mps__twins *t, mps__twin *twin, void *host, size_t bytes)
+/* On the device if both copies are valid. */
+static mps__shared shared_of(mps__twins *t, mps__array *a, size_t element)
 {
-    const bool there = t->open && twin && twin->bytes > 0 && !twin->old[MPS__ON_DEVICE];
-    if (t->open && twin)
-        mps__twin_change(t, twin, host, there ? MPS__ON_DEVICE : MPS__ON_HOST, false);
-    return (mps__shared){there ? twin->data : host, bytes, there};
+    const bool there = t->open && a->bytes > 0 && mps__array_valid(a, MPS__ON_DEVICE);
+    mps__array_written(a, there ? MPS__ON_DEVICE : MPS__ON_HOST);
+    mps__array_ghosts_set(a, true);
+    return (mps__shared){there ? a->mirror.data : a->host, element, there};
 }
 
 mps__shared mps__twins_shared(mps__twins *t, int32_t channel)
 {
-    return shared_of(t, t->open ? mps__twin_of(t, channel) : NULL,
-                     mps__channels_array(t->channels, t->particles, channel),
+    return shared_of(t, array_of(t, channel),
                      mps__channels_bytes(t->channels, t->particles, channel));
 }
 
 mps__shared mps__twins_shared_field(mps__twins *t, int32_t field)
 {
-    const mps__field *f = &t->particles->field[field];
-    return shared_of(t, mps__twin_of_field(t, field), *f->data, (size_t)f->components * f->size);
+    return shared_of(t, field_of(t, field), mps__field_element(&t->particles->field[field]));
 }
 
 void *mps__twins_array(mps__twins *t, int32_t channel, int32_t place)
 {
-    const mps__twin *twin = place == MPS__ON_DEVICE ? mps__twin_of(t, channel) : NULL;
-    return twin ? twin->data : mps__channels_array(t->channels, t->particles, channel);
+    const mps__array *a = place == MPS__ON_DEVICE ? array_of(t, channel) : NULL;
+    return a ? a->mirror.data : mps__channels_array(t->channels, t->particles, channel);
 }

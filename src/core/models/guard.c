@@ -26,10 +26,11 @@ static void protect(mps__guard *g, const char *name, const void *array, size_t e
     g->element += element;
 }
 
-/* Whether the host copy is stale: the call may update it. */
-static bool is_old(const mps__host *h, int32_t twin)
+/* Whether the host copy of a channel or field is stale: the call may update it. */
+static bool is_old(const mps__host *h, int32_t channel)
 {
-    return h->twins.open && h->twins.list[twin].old[MPS__ON_HOST];
+    const mps__array *a = mps__channels_of(h->channels, h->particles, channel);
+    return h->twins.open && a && !mps__array_valid(a, MPS__ON_HOST);
 }
 
 /* Whether the host copy of a channel, or of another one that overlaps it in memory, is stale. */
@@ -61,9 +62,8 @@ static void list_arrays(mps__guard *g, const mps__host *h, const mps__call *call
     }
     for (int32_t k = 0; k < h->particles->fields; k++) {
         const mps__field *f = &h->particles->field[k];
-        if (!is_old(h, MPS__CHANNELS + k) &&
-            !may_write(h, call, *f->data, (size_t)f->components * f->size))
-            protect(g, f->name, *f->data, (size_t)f->components * f->size);
+        if (!is_old(h, MPS__CHANNELS + k) && !may_write(h, call, *f->data, mps__field_element(f)))
+            protect(g, f->name, *f->data, mps__field_element(f));
     }
 }
 

@@ -90,8 +90,8 @@ static mps_status left_equation(const mps__host *h, const mps_stage *s, const mp
 static double number_of(const mps__host *h, int32_t channel)
 {
     const mps__channel *k = &h->channels->list[channel];
-    return k->spec.type == MPS_TYPE_INTEGER ? *(const int32_t *)k->array
-                                            : *(const double *)k->array;
+    return k->spec.type == MPS_TYPE_INTEGER ? *(const int32_t *)k->array.host
+                                            : *(const double *)k->array.host;
 }
 
 /* The step divides by the gain; a NaN here would spread to all pressures. */
@@ -133,19 +133,19 @@ static mps_status share(mps__host *h, const int32_t *channel, int32_t count)
     int32_t found = 0;
     if (!mps__ranks_many(h->ghosts->ranks)) return MPS_OK;
     for (int32_t k = 0; k < count; k++) {
-        bool *stale = channel[k] < 0 ? NULL
-                                     : mps__channels_stale(h->channels, h->particles, channel[k]);
-        if (!stale || !*stale) continue;
-        *stale = false;
-        shared[found++] = mps__twins_shared(&h->twins, channel[k]);
+        const mps__array *a = mps__channels_of(h->channels, h->particles, channel[k]);
+        if (a && !mps__array_ghosts_valid(a))
+            shared[found++] = mps__twins_shared(&h->twins, channel[k]);
     }
     return mps__ghosts_share_at(h->ghosts, &h->twins.device, shared, found);
 }
 
 void mps__host_all_alike(mps__host *h)
 {
-    for (int32_t k = 0; k < h->channels->count; k++) h->channels->list[k].stale = false;
-    for (int32_t k = 0; k < h->particles->fields; k++) h->particles->field[k].stale = false;
+    for (int32_t k = 0; k < h->channels->count; k++)
+        mps__array_ghosts_set(&h->channels->list[k].array, true);
+    for (int32_t k = 0; k < h->particles->fields; k++)
+        mps__array_ghosts_set(&h->particles->field[k].array, true);
 }
 
 /* Halo exchange of channels that the call reads at neighbours; from MPS_FORCE on also of the pair
@@ -167,26 +167,26 @@ static mps_status share_before(mps__host *h, const mps__call *call)
     return share(h, channel, count);
 }
 
-static bool is_array(const mps__host *h, int32_t channel)
+static mps__array *array_of(const mps__host *h, int32_t channel)
 {
-    return channel >= MPS__CHANNELS ||
-           (channel >= 0 && !mps__channel_is_scalar(&h->channels->list[channel]));
+    return mps__channels_of(h->channels, h->particles, channel);
 }
 
-/* Mark ghosts and the other memory space as stale after a call. Loops run over owned particles. A
+/* New versions of what a call wrote; ghosts do not have them. Loops run over owned particles. A
  * pass with `everywhere` leaves ghosts valid if its inputs and the values that it modified were
  * valid there. */
 static void note_writes(mps__host *h, const mps__call *call, int32_t place)
 {
-    bool old = !(call->pass && call->pass->everywhere);
-    for (int32_t u = 0; u < call->use_count && !old; u++)
-        old = !(call->uses[u].access & MPS_USE_WRITE) && is_array(h, call->channel[u]) &&
-              *mps__channels_stale(h->channels, h->particles, call->channel[u]);
+    bool ghosts = call->pass && call->pass->everywhere;
+    for (int32_t u = 0; u < call->use_count && ghosts; u++)
+        ghosts = call->uses[u].access & MPS_USE_WRITE || !array_of(h, call->channel[u]) ||
+                 mps__array_ghosts_valid(array_of(h, call->channel[u]));
     for (int32_t u = 0; u < call->use_count; u++) {
-        if (!is_array(h, call->channel[u]) || !(call->uses[u].access & MPS_USE_WRITE)) continue;
-        bool *stale = mps__channels_stale(h->channels, h->particles, call->channel[u]);
-        *stale = old || (call->uses[u].access & MPS_USE_READ && *stale);
-        mps__twins_written(&h->twins, call->channel[u], place);
+        mps__array *a = array_of(h, call->channel[u]);
+        if (!a || !(call->uses[u].access & MPS_USE_WRITE)) continue;
+        const bool were = !(call->uses[u].access & MPS_USE_READ) || mps__array_ghosts_valid(a);
+        mps__array_written(a, place);
+        mps__array_ghosts_set(a, ghosts && were);
     }
 }
 
@@ -235,8 +235,8 @@ static void begin_channels(mps__host *h, const mps__call *call, int32_t place)
 {
     for (int32_t k = MPS__OWN_CHANNELS; call->begins >> k; k++) {
         if (!(call->begins >> k & 1)) continue;
-        h->channels->list[k].stale = false;
         begin_channel(h, k, place);
+        mps__array_ghosts_set(&h->channels->list[k].array, true);
     }
 }
 
@@ -375,7 +375,7 @@ static double bytes_of(const mps__host *h, const mps__call *call)
 {
     double bytes = 0;
     for (int32_t u = 0; u < call->use_count; u++) {
-        if (!is_array(h, call->channel[u])) continue;
+        if (!array_of(h, call->channel[u])) continue;
         const int32_t access = call->uses[u].access;
         const int times = !!(access & (MPS_USE_READ | MPS__USE_AROUND)) +
                           !!(access & MPS_USE_WRITE);

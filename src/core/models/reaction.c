@@ -199,7 +199,7 @@ static int add_beside(mps_stage *s, mps__host *h, report *k)
     if (!k->place) return 1;
     mps_stage_rows(
         s, &place_rows,
-        &(place_fields){k->acceleration, mps__twins_seen(&h->twins, h->particles->part), k->place});
+        &(place_fields){k->acceleration, mps__twins_seen(&h->twins, MPS__FIELD_PART), k->place});
     if (h->twins.place == MPS__ON_DEVICE) return add_there(s, h, k);
     for (int64_t i = 0; i < s->view->n; i++) used[k->place[i]] = true;
     int failed = 0;
@@ -215,7 +215,7 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
     report k = {.kind = v->kind,
                 .ghost = mps__ghosts_seen(h->ghosts, mps__device_of(h->parallel)),
                 .x = v->x,
-                .rho = mps__twins_seen(&h->twins, h->particles->rho),
+                .rho = mps__twins_seen(&h->twins, MPS__FIELD_DENSITY),
                 .acceleration = acceleration,
                 .volume = v->dim == 2 ? v->dp * v->dp : v->dp * v->dp * v->dp};
     if (s->hook != MPS_FORCE && s->hook != MPS_VELOCITY)

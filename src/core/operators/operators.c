@@ -238,7 +238,7 @@ static mps_status check_stencil(mps__context *c, const char *call, const mps_ste
 }
 
 mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s,
-                         const mps__array *arrays)
+                         const mps__operand *arrays)
 {
     mps__context *c = told_to(given);
     MPS__TRY(mps__struct_in(c, "mps_stencil", s, sizeof *s, given));
@@ -258,7 +258,7 @@ mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil
 /* Begin an operator with a copy `own` of its stencil. */
 #define BEGIN(...)         \
     mps_stencil own = {0}; \
-    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__array[]){__VA_ARGS__, {NULL, NULL}}))
+    MPS__TRY(mps__op_begin(__func__, s, &own, (const mps__operand[]){__VA_ARGS__, {NULL, NULL}}))
 
 void mps__op_weigh(const mps_stencil *s, const mps__weighed *out)
 {

@@ -17,15 +17,15 @@ typedef struct mps__weighed {
 } mps__weighed;
 
 /* Array argument of an operator, with its name in the header. */
-typedef struct mps__array {
+typedef struct mps__operand {
     const char *name;
     const void *data;
-} mps__array;
+} mps__operand;
 
 /* Checks of every operator: of the stencil, of which `s` becomes a copy, and of the arrays up to
  * one without a name. */
 mps_status mps__op_begin(const char *call, const mps_stencil *given, mps_stencil *s,
-                         const mps__array *arrays);
+                         const mps__operand *arrays);
 
 /* Inverse of a symmetric matrix whose eigenvalues are raised to `least`: bounded if neighbours are
  * too few. */

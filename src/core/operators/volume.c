@@ -68,7 +68,7 @@ mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta)
 {
     mps_stencil own = {0};
     MPS__TRY(
-        mps__op_begin(__func__, s, &own, (const mps__array[]){{"delta", delta}, {NULL, NULL}}));
+        mps__op_begin(__func__, s, &own, (const mps__operand[]){{"delta", delta}, {NULL, NULL}}));
     const volume_sums v = {.s = own, .out = delta, .full = wide_lattice(&own)};
     mps__loop_run(own.parallel, &deviation_rows, own.dim, own.n, &v);
     return MPS_OK;
@@ -100,7 +100,7 @@ mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum)
 {
     mps_stencil own = {0};
     MPS__TRY(mps__op_begin(__func__, s, &own,
-                           (const mps__array[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
+                           (const mps__operand[]){{"f", f}, {"sum", sum}, {NULL, NULL}}));
     MPS__CHECK(own.host, f != sum, "%s(): f and sum are the same array: must be two", __func__);
     const volume_sums v = {.s = own, .f = f, .out = sum, .full = wide_lattice(&own)};
     mps__loop_run(own.parallel, &sum_rows, own.dim, own.n, &v);

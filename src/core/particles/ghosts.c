@@ -37,30 +37,25 @@ void mps__ghosts_free(mps__ghosts *g)
 
 /* ---- packets: all fields of a particle in sequence ---- */
 
-static size_t bytes_of(const mps__field *f)
-{
-    return (size_t)f->components * f->size;
-}
-
 size_t mps__ghosts_packet(const mps__particles *s)
 {
     size_t bytes = 0;
-    for (int32_t k = 0; k < s->fields; k++) bytes += bytes_of(&s->field[k]);
+    for (int32_t k = 0; k < s->fields; k++) bytes += mps__field_element(&s->field[k]);
     return bytes;
 }
 
 void mps__ghosts_pack(const mps__particles *s, int64_t i, char *to)
 {
-    for (int32_t k = 0; k < s->fields; to += bytes_of(&s->field[k++])) {
-        const size_t bytes = bytes_of(&s->field[k]);
+    for (int32_t k = 0; k < s->fields; to += mps__field_element(&s->field[k++])) {
+        const size_t bytes = mps__field_element(&s->field[k]);
         memcpy(to, (const char *)*s->field[k].data + (size_t)i * bytes, bytes);
     }
 }
 
 void mps__ghosts_unpack(const mps__particles *s, int64_t i, const char *from)
 {
-    for (int32_t k = 0; k < s->fields; from += bytes_of(&s->field[k++])) {
-        const size_t bytes = bytes_of(&s->field[k]);
+    for (int32_t k = 0; k < s->fields; from += mps__field_element(&s->field[k++])) {
+        const size_t bytes = mps__field_element(&s->field[k]);
         memcpy((char *)*s->field[k].data + (size_t)i * bytes, from, bytes);
     }
 }
@@ -69,7 +64,7 @@ void mps__ghosts_unpack(const mps__particles *s, int64_t i, const char *from)
 static void move_tail(const mps__particles *s, int64_t aside, int64_t from, int64_t to)
 {
     for (int32_t k = 0; k < s->fields && aside > 0 && from != to; k++) {
-        const size_t bytes = bytes_of(&s->field[k]);
+        const size_t bytes = mps__field_element(&s->field[k]);
         char *data = *s->field[k].data;
         memmove(data + (size_t)to * bytes, data + (size_t)from * bytes, (size_t)aside * bytes);
     }

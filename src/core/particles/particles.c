@@ -33,7 +33,7 @@ mps_status mps__particles_field_add(mps__particles *s, const char *name, int32_t
     f->data = data ? data : &f->own;
     *f->data = mps__alloc(s->context, s->capacity * components, size);
     if (!*f->data) return MPS_E_NOMEM;
-    f->serial = ++s->serials;
+    mps__array_written(mps__field_array(f), MPS__ON_HOST);
     s->fields++;
     keep_last(s);
     return MPS_OK;
@@ -82,7 +82,7 @@ void mps__particles_free(mps__particles *s)
 {
     for (int32_t k = 0; k < s->fields; k++) {
         mps__free(s->context, *s->field[k].data);
-        mps__free(s->context, s->field[k].kept);
+        mps__free(s->context, s->field[k].array.kept);
         *s->field[k].data = NULL;
     }
     mps__scratch_free(s->context, &s->own);
@@ -90,16 +90,17 @@ void mps__particles_free(mps__particles *s)
     s->n = s->capacity = 0;
 }
 
-static size_t stride(const mps__field *f)
+void mps__particles_written(mps__particles *s)
 {
-    return (size_t)f->components * f->size;
+    for (int32_t k = 0; k < s->fields; k++)
+        mps__array_written(mps__field_array(&s->field[k]), MPS__ON_HOST);
 }
 
 /* Allocate new arrays for all fields, or none: the caller swaps them in. */
 static mps_status new_arrays(mps__particles *s, int64_t capacity, void *array[MPS__FIELDS_MAX])
 {
     for (int32_t k = 0; k < s->fields; k++) {
-        array[k] = mps__alloc(s->context, capacity, stride(&s->field[k]));
+        array[k] = mps__alloc(s->context, capacity, mps__field_element(&s->field[k]));
         if (!array[k]) {
             while (k-- > 0) mps__free(s->context, array[k]);
             return MPS_E_NOMEM;
@@ -127,7 +128,8 @@ mps_status mps__particles_reserve(mps__particles *s, int64_t extra)
     void *array[MPS__FIELDS_MAX];
     MPS__TRY(new_arrays(s, capacity, array));
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->n > 0) memcpy(array[k], *s->field[k].data, (size_t)s->n * stride(&s->field[k]));
+        if (s->n > 0)
+            memcpy(array[k], *s->field[k].data, (size_t)s->n * mps__field_element(&s->field[k]));
     swap_arrays(s, capacity, array);
     return MPS_OK;
 }
@@ -138,11 +140,11 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
     void *array[MPS__FIELDS_MAX];
     MPS__TRY(new_arrays(s, capacity, array));
     for (int32_t k = 0; k < s->fields; k++)
-        if (from[k]) memcpy(array[k], from[k], (size_t)n * stride(&s->field[k]));
+        if (from[k]) memcpy(array[k], from[k], (size_t)n * mps__field_element(&s->field[k]));
     swap_arrays(s, capacity, array);
     s->n = n;
     s->generation++;
-    s->changes++;
+    mps__particles_written(s);
     s->solids++;
     return MPS_OK;
 }
@@ -150,7 +152,8 @@ mps_status mps__particles_replace(mps__particles *s, int64_t n, const void *cons
 static void begin_field(const mps__field *f, int64_t first, int64_t count)
 {
     double *values = *f->data;
-    memset((char *)*f->data + (size_t)first * stride(f), 0, (size_t)count * stride(f));
+    memset((char *)*f->data + (size_t)first * mps__field_element(f), 0,
+           (size_t)count * mps__field_element(f));
     for (int64_t k = first * f->components; f->begin != 0 && k < (first + count) * f->components;
          k++)
         values[k] = f->begin;
@@ -168,7 +171,8 @@ void mps__particles_field_drop(mps__particles *s)
 {
     mps__field *f = &s->field[--s->fields];
     mps__free(s->context, *f->data);
-    mps__free(s->context, f->kept);
+    mps__free(s->context, f->array.kept);
+    mps__array_release(&f->array);
     *f->data = NULL;
 }
 
@@ -184,7 +188,7 @@ int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind)
     }
     s->n += count;
     s->generation++;
-    s->changes++;
+    mps__particles_written(s);
     s->solids += kind != MPS_FLUID;
     return first;
 }
@@ -247,7 +251,7 @@ void mps__particles_gather(const mps_parallel *p, void *to, const void *from, in
 static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
                           const int32_t *order, char *scratch)
 {
-    const size_t bytes = stride(f);
+    const size_t bytes = mps__field_element(f);
     mps__particles_gather(s->parallel, scratch, *f->data, count, order, bytes);
     mps__parallel_copy(s->parallel, *f->data, scratch, (size_t)count * bytes);
 }
@@ -264,7 +268,7 @@ static char *room_to_move(mps__particles *s, int64_t n)
 {
     size_t largest = sizeof(int32_t);
     for (int32_t k = 0; k < s->fields; k++)
-        if (stride(&s->field[k]) > largest) largest = stride(&s->field[k]);
+        if (mps__field_element(&s->field[k]) > largest) largest = mps__field_element(&s->field[k]);
     /* blocks 0 and 1 may contain the order */
     return mps__scratch_take(s->context, s->scratch, 2, n, largest);
 }
@@ -287,17 +291,21 @@ mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_
     const int64_t solids = count != s->n ? count_solids(s) : 0;
     char *scratch = room_to_move(s, s->n);
     if (!scratch) return MPS_E_NOMEM;
-    s->changes++;
-    for (int32_t k = 0; k < s->fields; k++)
-        if (!old[k]) permute_field(s, &s->field[k], count, order, scratch);
+    for (int32_t k = 0; k < s->fields; k++) {
+        if (old[k]) continue;
+        permute_field(s, &s->field[k], count, order, scratch);
+        mps__array_invalidate(mps__field_array(&s->field[k]), MPS__ON_DEVICE);
+    }
     int32_t *place = (int32_t *)(void *)scratch; /* new index by old index */
     for (int64_t i = 0; i < s->n; i++) place[i] = -1;
     for (int64_t i = 0; i < count; i++) place[order[i]] = (int32_t)i;
     for (int64_t i = 0; i < count; i++)
         if (s->wall_of[i] >= 0) s->wall_of[i] = place[s->wall_of[i]];
+    mps__array_written(mps__field_array(&s->field[MPS__FIELD_WALL_OF]), MPS__ON_HOST);
     const bool fewer = count != s->n;
     s->n = count;
     if (fewer) s->generation++;
+    if (fewer) mps__particles_written(s);
     if (fewer && count_solids(s) != solids) s->solids++;
     return MPS_OK;
 }

@@ -4,14 +4,34 @@
 #ifndef MPS_CORE_PARTICLES_H
 #define MPS_CORE_PARTICLES_H
 
-#include "parallel.h"
+#include "array.h"
 
 enum { MPS__FIELDS_MAX = 32, MPS__PHASES = MPS_PHASES, MPS__PARTS_MAX = 64, MPS__PART_NAME = 32 };
+
+/* Fields that all particles have, by their index in mps__particles.field. */
+enum {
+    MPS__FIELD_POSITION,
+    MPS__FIELD_VELOCITY,
+    MPS__FIELD_PRESSURE,
+    MPS__FIELD_NUMBER_DENSITY,
+    MPS__FIELD_DENSITY,
+    MPS__FIELD_REF,
+    MPS__FIELD_AREA,
+    MPS__FIELD_ID,
+    MPS__FIELD_KIND,
+    MPS__FIELD_PHASE,
+    MPS__FIELD_PART,
+    MPS__FIELD_REGION,
+    MPS__FIELD_WALL_OF,
+    MPS__FIELD_PLATE,
+    MPS__FIELD_WALL_PRESSURE,
+    MPS__FIELD_HELD,
+    MPS__FIELDS_OWN
+};
 
 /* One per-particle array. */
 typedef struct mps__field {
     char name[MPS__NAME_SIZE];
-    int64_t serial;     /* unique number of this field, independent of its index */
     int32_t components; /* per particle */
     size_t size;        /* bytes of a component */
     bool is_public;     /* doubles that may be leased for reading and writing by name */
@@ -20,14 +40,10 @@ typedef struct mps__field {
     void *own;          /* this pointer, for user fields */
     int32_t readers;    /* open leases */
     bool writer;
-    double begin; /* initial value for new particles, of fields of doubles */
-    bool stale;   /* ghosts are stale */
-    bool trails;  /* stays the last field, as it will be dropped */
-    bool passing; /* a first guess: zero if a checkpoint does not have it */
-    bool undone;  /* a failed step restores it from `kept`, */
-    bool there;   /* or from the copy on the device of the step */
-    void *kept;
-    int64_t kept_capacity;
+    double begin;     /* initial value for new particles, of fields of doubles */
+    bool trails;      /* stays the last field, as it will be dropped */
+    bool passing;     /* a first guess: zero if a checkpoint does not have it */
+    mps__array array; /* its `host` is set by mps__field_array() */
 } mps__field;
 
 typedef struct mps__particles {
@@ -51,16 +67,34 @@ typedef struct mps__particles {
      * dummies that are their shadows */
     int32_t *plate;
     int32_t fields;
-    int64_t serials; /* number of fields added so far */
     mps__field field[MPS__FIELDS_MAX];
     int32_t parts;
     char part_name[MPS__PARTS_MAX][MPS__PART_NAME];
     int64_t generation; /* incremented when particles are added or removed */
     int64_t solids;     /* incremented when solids are added or removed */
-    int64_t changes;    /* incremented when values change outside of the calls of a step */
     bool written;       /* the user wrote a field since the last halo exchange of all fields */
     mps__scratch own, *scratch; /* workspace of permutations: own, or shared with others */
 } mps__particles;
+
+/* The array of a field. */
+static inline mps__array *mps__field_array(mps__field *f)
+{
+    f->array.host = *f->data;
+    return &f->array;
+}
+/* Bytes of a field per particle. */
+static inline size_t mps__field_element(const mps__field *f)
+{
+    return (size_t)f->components * f->size;
+}
+/* The host has new values of all fields. */
+void mps__particles_written(mps__particles *s);
+/* Versions of the fields that the sums of the flow depend on: another number if one has changed. */
+static inline int64_t mps__particles_flow(const mps__particles *s)
+{
+    return s->field[MPS__FIELD_POSITION].array.version +
+           s->field[MPS__FIELD_VELOCITY].array.version + s->field[MPS__FIELD_DENSITY].array.version;
+}
 
 mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t dim);
 void mps__particles_free(mps__particles *s);

@@ -20,9 +20,9 @@ static void complete(const mps__world *w, mps_view *v, terms *f)
 {
     const double dp = w->setup.dp;
     mps__world_view(w, v);
-    f->rho = mps__seen(w, w->particles.rho);
-    f->u = mps__seen(w, w->particles.u);
-    f->region = mps__seen(w, w->particles.region);
+    f->rho = mps__seen(w, MPS__FIELD_DENSITY);
+    f->u = mps__seen(w, MPS__FIELD_VELOCITY);
+    f->region = mps__seen(w, MPS__FIELD_REGION);
     f->cell = w->setup.dim == 2 ? dp * dp : dp * dp * dp;
 }
 
@@ -233,8 +233,8 @@ MPS_SUMS(add_body_works, add_body_work, body_fields)
 
 double mps__budget_body_work(const mps__world *w, const double *pressure, const double *place)
 {
-    const body_fields f = {pressure, mps__seen(w, w->particles.area),
-                           mps__seen(w, w->particles.ref), place};
+    const body_fields f = {pressure, mps__seen(w, MPS__FIELD_AREA), mps__seen(w, MPS__FIELD_REF),
+                           place};
     double work = 0;
     mps_view v;
     if (!w->work.bodies) return 0;
@@ -268,15 +268,15 @@ void mps__budget_book_added(const mps__world *w, mps__budget *b)
  * agreement. */
 static bool is_booked(const mps__world *w)
 {
-    return w->booked == w->particles.changes && !mps__ranks_many(&w->ranks);
+    return w->booked == mps__particles_flow(&w->particles) && !mps__ranks_many(&w->ranks);
 }
 
 mps_status mps__budget_update(const mps__world *w, mps__budget *b)
 {
     if (b->started && is_booked(w)) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.x));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.u));
-    MPS__TRY(mps__world_fetch_field(w, w->particles.rho));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_VELOCITY));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_DENSITY));
     if (b->started) {
         mps__budget_book_added(w, b);
         return MPS_OK;

@@ -111,8 +111,8 @@ static void ask_speeds(mps_stage *s, double least)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    liquid f = {.u = mps__seen(w, w->particles.u),
-                .rho = mps__seen(w, w->particles.rho),
+    liquid f = {.u = mps__seen(w, MPS__FIELD_VELOCITY),
+                .rho = mps__seen(w, MPS__FIELD_DENSITY),
                 .least = least * least,
                 .piece = film_of_two_rows(&s->view->near),
                 .carry = mps__motion_carry(&w->motion, &q->pose)};

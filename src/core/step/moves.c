@@ -102,7 +102,7 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const do
                                   double dt)
 {
     const ways f = {
-        .before = before, .x = mps__seen(w, w->particles.x), .dt = dt, .limit = limit_of(w)};
+        .before = before, .x = mps__seen(w, MPS__FIELD_POSITION), .dt = dt, .limit = limit_of(w)};
     double most[3] = {0, 0, -INFINITY};
     mps_view v;
     if (!mps__world_may_jump(w)) return MPS_OK;
@@ -151,8 +151,8 @@ static void take_way(void *way, const double *most)
 void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way)
 {
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const ways f = {.ref = mps__seen(w, w->particles.ref),
-                    .u = mps__seen(w, w->particles.u),
+    const ways f = {.ref = mps__seen(w, MPS__FIELD_REF),
+                    .u = mps__seen(w, MPS__FIELD_VELOCITY),
                     .dt = dt,
                     .carry = mps__motion_carry(&w->motion, &w->motion.now)};
     mps_view v;
@@ -207,10 +207,9 @@ static void take_result(void *to, const double *most)
 
 void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose, mps__outcome *v)
 {
-    const mps__particles *all = &w->particles;
-    const result f = {.x = mps__seen(w, all->x),
-                      .u = mps__seen(w, all->u),
-                      .p = mps__seen(w, all->p),
+    const result f = {.x = mps__seen(w, MPS__FIELD_POSITION),
+                      .u = mps__seen(w, MPS__FIELD_VELOCITY),
+                      .p = mps__seen(w, MPS__FIELD_PRESSURE),
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX),
                       .carry = mps__motion_carry(&w->motion, pose)};
     *v = (mps__outcome){0, -INFINITY}; /* if a device fails */

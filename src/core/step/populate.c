@@ -76,7 +76,7 @@ mps_status mps__world_populate(mps__world *w)
     if (begin[MPS_POPULATE] == begin[MPS_POPULATE + 1]) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     open_stage(w, &s, &v);
-    w->particles.changes++; /* verbs may write fields */
+    mps__particles_written(&w->particles); /* verbs may write fields */
     w->ahead.holds = false;
     w->host.entries = 0;
     w->host.leaving = false;

@@ -48,11 +48,10 @@ static void commit(mps__step *q)
     w->state.budget = q->budget;
     memcpy(w->state.reaction, q->reaction, sizeof q->reaction);
     w->state.budget.last = q->last;
-    w->booked = w->particles.changes;
+    w->booked = mps__particles_flow(&w->particles);
     memcpy(w->ahead.most, q->ahead, sizeof q->ahead);
     /* solids move in the tank; without a device nothing was requested */
-    w->ahead.changes = w->host.twins.last.launches > 0 && !w->work.bodies ? w->particles.changes
-                                                                          : -1;
+    w->ahead.flow = w->host.twins.last.launches > 0 && !w->work.bodies ? w->booked : -1;
     w->ahead.searches = w->lists.neighbours.searches;
     w->state.budget.deviation = q->deviation;
     if (!w->state.budget.started) {
@@ -84,7 +83,7 @@ static mps_status start(mps__world *w, mps__budget *budget)
         mps__motion_to_tank(&w->motion, &w->motion.now, s->x + i * w->setup.dim, X);
         mps__motion_point(&w->motion, &w->motion.now, X, NULL, s->u + i * w->setup.dim, NULL);
     }
-    mps__twins_changed(&w->host.twins, s->u);
+    mps__array_written(mps__field_array(&s->field[MPS__FIELD_VELOCITY]), MPS__ON_HOST);
     mps__budget_book_added(w, budget);
     return MPS_OK;
 }
@@ -196,7 +195,7 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     /* changes since the last step, whether this one succeeds or not */
     MPS__TRY(mps__step_book_between(w));
     mps__twins_begin(&w->host.twins);
-    w->ahead.holds = w->ahead.changes == w->particles.changes &&
+    w->ahead.holds = w->ahead.flow == mps__particles_flow(&w->particles) &&
                      w->ahead.searches == w->lists.neighbours.searches;
     mps_status status = prepare(w);
     if (status < 0) {

@@ -9,12 +9,11 @@ static mps_status find_near_rows(mps_stage *s)
     mps__world *w = mps__step_of(s)->w;
     mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
-    int64_t pairs = 0;
-    mps__neighbours_near(l, mps__seen(w, l->begin), mps__seen(w, l->middle),
-                         mps__given(w, l->near_begin));
+    int64_t pairs = 0, *begin = mps__given_list(w, MPS__NEAR_BEGIN, l->near_begin);
+    mps__neighbours_near(l, mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+                         mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle), begin);
     if (mps__device_of(l->parallel))
-        mps__host_settle_with(&w->host, mps__twins_seen(t, l->near_begin + l->n), &pairs,
-                              sizeof pairs);
+        mps__host_settle_with(&w->host, begin + l->n, &pairs, sizeof pairs);
     else
         pairs = l->near_begin[l->n];
     MPS__TRY(mps__device_status(&t->device));
@@ -291,8 +290,8 @@ static mps_status keep(mps_stage *s)
     const keep_fields f = {.wall_pressure = s->data[0],
                            .condition = s->data[1],
                            .region = s->data[2],
-                           .load = mps__given(w, w->particles.load),
-                           .held = mps__given(w, w->particles.held)};
+                           .load = mps__given(w, MPS__FIELD_WALL_PRESSURE),
+                           .held = mps__given(w, MPS__FIELD_HELD)};
     const bool there = mps__device_of(&w->pool.parallel) != NULL;
     mps__host_sum_later(&w->host, s->view, COUNTS, &count_rows, &f, (mps__then){take_counts, q});
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});

@@ -61,12 +61,12 @@ static void sum_momentum(const mps__step *q, const double *a, bool masses,
 {
     const mps__world *w = q->w;
     const int32_t dim = w->setup.dim, turns = TURNS(dim), own = dim + turns;
-    flow f = {.rho = mps__seen(w, w->particles.rho),
-              .u = mps__seen(w, w->particles.u),
+    flow f = {.rho = mps__seen(w, MPS__FIELD_DENSITY),
+              .u = mps__seen(w, MPS__FIELD_VELOCITY),
               .a = a,
               .masses = masses,
               .dt = q->view.dt,
-              .region = mps__seen(w, w->particles.region),
+              .region = mps__seen(w, MPS__FIELD_REGION),
               .cell = cell_of(w)};
     double found[MPS__MOMENTUM] = {0};
     mps_view v;

@@ -185,7 +185,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     mps__world *w = q->w;
     mps_ppe_result result = {.struct_size = sizeof result};
     mps_status status = MPS_OK;
-    w->bounds.held = mps__seen(w, w->particles.held);
+    w->bounds.held = mps__seen(w, MPS__FIELD_HELD);
     w->bounds.solves = 0;
     if (mps__ppe_rows(&w->ppe) > 0)
         status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);

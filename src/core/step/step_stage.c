@@ -12,11 +12,11 @@ static void set_scalars(mps__step *q)
     mps__channel *list = q->w->channels.list;
     mps__equation *e = &q->terms.equation;
     *e = (mps__equation){.radius = MPS_FAR, .gain = 1.0};
-    list[MPS__EQUATION_RADIUS].array = &e->radius;
-    list[MPS__EQUATION_COMPLETE].array = &e->complete_surface;
-    list[MPS__EQUATION_BODY].array = &e->body;
-    list[MPS__EQUATION_WALL_FACTOR].array = &e->wall_factor;
-    list[MPS__EQUATION_GAIN].array = &e->gain;
+    list[MPS__EQUATION_RADIUS].array.host = &e->radius;
+    list[MPS__EQUATION_COMPLETE].array.host = &e->complete_surface;
+    list[MPS__EQUATION_BODY].array.host = &e->body;
+    list[MPS__EQUATION_WALL_FACTOR].array.host = &e->wall_factor;
+    list[MPS__EQUATION_GAIN].array.host = &e->gain;
 }
 
 static void *array_of(mps__world *w, int32_t channel)
@@ -120,12 +120,14 @@ static mps_status weigh_pairs(mps_stage *s)
     mps__twins *t = &q->w->host.twins;
     const mps_neighbours *l = &q->w->lists.neighbours;
     mps_stencil *near = &q->view.near;
-    mps__op_weigh(&s->view->near, &(mps__weighed){.begin = mps__twins_seen(t, l->near_begin),
-                                                  .col = mps__twins_given(t, l->near_col, true),
-                                                  .w_r2 = mps__twins_given(t, l->w_r2, true),
-                                                  .idle = mps__twins_seen(t, l->idle),
-                                                  .n = s->data[0],
-                                                  .a = s->data[1]});
+    mps__op_weigh(
+        &s->view->near,
+        &(mps__weighed){.begin = mps__twins_list_seen(t, MPS__NEAR_BEGIN, l->near_begin),
+                        .col = mps__twins_list_given(t, MPS__NEAR_COLUMNS, l->near_col, true),
+                        .w_r2 = mps__twins_list_given(t, MPS__NEAR_WEIGHTS, l->w_r2, true),
+                        .idle = mps__twins_list_seen(t, MPS__IDLE_ROWS, l->idle),
+                        .n = s->data[0],
+                        .a = s->data[1]});
     near->begin = l->near_begin;
     near->end = l->near_begin + 1;
     near->col = l->near_col;

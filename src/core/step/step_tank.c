@@ -98,7 +98,7 @@ static mps_status move_tank(mps_stage *s)
     const mps__world *w = q->w;
     const bool with_tank = w->motion.start == MPS_START_WITH_TANK,
                bodies = w->work.bodies && w->state.dt_before > 0;
-    tank_fields f = {.ref = mps__seen(w, w->particles.ref),
+    tank_fields f = {.ref = mps__seen(w, MPS__FIELD_REF),
                      .place = s->data[2],
                      .velocity = s->data[0],
                      .acceleration = s->data[1],
@@ -195,15 +195,14 @@ mps_status mps__step_place_solids(mps__world *w)
     mps__channel *list = w->channels.list;
     k->bodies = mps__plan_has_writer(&w->host.plan, MPS__SOLID_PLACE) ||
                 mps__plan_has_writer(&w->host.plan, MPS__SOLID_AREA);
-    list[MPS__SOLID_PLACE].array = s->ref;
-    list[MPS__SOLID_AREA].array = s->area;
+    list[MPS__SOLID_PLACE].array.host = list[MPS__SOLID_AREA].array.host = NULL; /* the fields */
     if (!k->bodies) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, s->ref));
-    MPS__TRY(mps__world_fetch_field(w, s->area));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF));
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
     MPS__TRY(mps__grow(w->context, (void **)&k->placed, &k->placed_capacity, 0, 2 * count,
                        sizeof *k->placed));
-    list[MPS__SOLID_PLACE].array = k->placed;
-    list[MPS__SOLID_AREA].array = k->placed + count;
+    list[MPS__SOLID_PLACE].array.host = k->placed;
+    list[MPS__SOLID_AREA].array.host = k->placed + count;
     memcpy(k->placed, s->ref, (size_t)count * sizeof *s->ref);
     memcpy(k->placed + count, s->area, (size_t)count * sizeof *s->area);
     return MPS_OK;
@@ -215,8 +214,8 @@ void mps__step_keep_places(mps__world *w, const double *place, const double *are
     const mps__particles *s = &w->particles;
     const size_t bytes = (size_t)(s->n * s->dim) * sizeof *place;
     if (!w->work.bodies) return;
-    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->ref), place, bytes);
-    mps__parallel_copy(&w->pool.parallel, mps__given(w, s->area), area, bytes);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, MPS__FIELD_REF), place, bytes);
+    mps__parallel_copy(&w->pool.parallel, mps__given(w, MPS__FIELD_AREA), area, bytes);
 }
 
 /* ---- areas ---- */
@@ -256,7 +255,8 @@ void mps__step_find_areas(mps__world *w)
     v.area = s->area; /* the rotated ones are computed here */
     w->host.everywhere = true;
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const turn_fields f = {mps__seen(w, s->area), mps__given(w, w->work.turned)};
+    const turn_fields f = {mps__seen(w, MPS__FIELD_AREA),
+                           mps__given_list(w, MPS__TURNED_AREAS, w->work.turned)};
     mps__host_rows(&w->host, &v, &turn_rows, &f);
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
     w->host.everywhere = false;

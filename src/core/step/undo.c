@@ -23,7 +23,7 @@ static bool is_kept(mps__world *w, const mps__field *f)
 
 static size_t bytes_of(const mps__world *w, const mps__field *f)
 {
-    return (size_t)w->particles.n * (size_t)f->components * f->size;
+    return (size_t)w->particles.n * mps__field_element(f);
 }
 
 mps_status mps__undo_keep(mps__world *w)
@@ -31,16 +31,13 @@ mps_status mps__undo_keep(mps__world *w)
     mps__particles *s = &w->particles;
     mps__models_keep(&w->models);
     for (int32_t k = 0; k < s->fields; k++) {
-        mps__field *f = &s->field[k];
-        f->there = false;
-        f->undone = is_kept(w, f);
-        if (f->undone) MPS__TRY(mps__twins_keep(&w->host.twins, k, &f->there));
-        if (!f->undone || f->there) continue;
-        const int64_t room = s->n > f->kept_capacity ? mps__room(s->n, f->kept_capacity) : 0;
-        MPS__TRY(mps__grow(w->context, &f->kept, &f->kept_capacity, 0, room,
-                           (size_t)f->components * f->size));
-        mps__parallel_copy(&w->pool.parallel, f->kept, *f->data, bytes_of(w, f));
-        w->host.plan.outside[MPS__UNDO].bytes += 2.0 * (double)bytes_of(w, f);
+        const mps__field *f = &s->field[k];
+        mps__array *a = mps__field_array(&s->field[k]);
+        a->kept_in = MPS__NOWHERE;
+        if (!is_kept(w, f)) continue;
+        MPS__TRY(mps__array_keep(a, w->context, &w->pool.parallel, bytes_of(w, f)));
+        if (a->kept_in == MPS__ON_HOST)
+            w->host.plan.outside[MPS__UNDO].bytes += 2.0 * (double)bytes_of(w, f);
     }
     return MPS_OK;
 }
@@ -48,16 +45,17 @@ mps_status mps__undo_keep(mps__world *w)
 mps_status mps__undo_restore(mps__world *w, const double *before)
 {
     mps__particles *s = &w->particles;
-    bool moved = before != NULL, there = false;
+    mps__array *x = mps__field_array(&s->field[MPS__FIELD_POSITION]);
+    bool on_device = false;
     for (int32_t k = 0; k < s->fields; k++) {
-        const mps__field *f = &s->field[k];
-        if (!f->undone) continue;
-        if (!f->there) memcpy(*f->data, f->kept, bytes_of(w, f));
-        mps__twins_restore(&w->host.twins, k, f->there);
-        there = there || f->there;
-        moved = moved && f->data != (void **)&s->x;
+        mps__array *a = mps__field_array(&s->field[k]);
+        mps__array_restore(a, bytes_of(w, &s->field[k]));
+        on_device = on_device || a->kept_in == MPS__ON_DEVICE;
     }
     mps__models_restore(&w->models);
-    if (moved) memcpy(s->x, before, (size_t)(s->n * w->setup.dim) * sizeof *s->x);
-    return there ? mps__twins_restored(&w->host.twins, w->state.t) : MPS_OK;
+    if (before && x->kept_in == MPS__NOWHERE) {
+        memcpy(s->x, before, bytes_of(w, &s->field[MPS__FIELD_POSITION]));
+        mps__array_written(x, MPS__ON_HOST);
+    }
+    return on_device ? mps__twins_restored(&w->host.twins, w->state.t) : MPS_OK;
 }

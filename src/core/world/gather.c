@@ -13,7 +13,7 @@ static mps_status swap_out(mps__world *w, int64_t n)
     mps__collected *g = &w->gathered;
     void *fresh[MPS__FIELDS_MAX];
     for (int32_t k = 0; k < s->fields; k++) {
-        fresh[k] = mps__alloc(w->context, n, (size_t)s->field[k].components * s->field[k].size);
+        fresh[k] = mps__alloc(w->context, n, mps__field_element(&s->field[k]));
         if (fresh[k]) continue;
         while (k-- > 0) mps__free(w->context, fresh[k]);
         return MPS_E_NOMEM;

@@ -8,7 +8,7 @@
 static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
-    w->particles.changes++;
+    mps__particles_written(&w->particles);
     w->ahead.holds = false;
     w->ghosts.known -= count;
     w->particles.generation++;
@@ -131,7 +131,7 @@ mps_status mps__world_leave_domain(mps__world *w)
     bool any = true;
     mps_view v;
     if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
-    MPS__TRY(mps__world_fetch_field(w, w->particles.ref)); /* solids move in the tank */
+    MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF)); /* solids move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
     if (!w->ahead.holds && mps__world_there(w) && !mps__ranks_many(&w->ranks))
@@ -209,14 +209,13 @@ MPS_ROWS(spilled_rows, look_behind, rims)
 static rims rims_of(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
-    const mps__particles *s = &w->particles;
-    return (rims){.begin = mps__seen(w, l->begin),
-                  .middle = mps__seen(w, l->middle),
-                  .col = mps__seen(w, l->col),
-                  .plate = mps__seen(w, s->plate),
-                  .rim = mps__seen(w, l->rim),
-                  .ref = mps__seen(w, s->ref),
-                  .area = mps__seen(w, s->area),
+    return (rims){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+                  .middle = mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle),
+                  .col = mps__seen_list(w, MPS__ROWS_COLUMNS, l->col),
+                  .plate = mps__seen(w, MPS__FIELD_PLATE),
+                  .rim = mps__seen_list(w, MPS__RIM_ROWS, l->rim),
+                  .ref = mps__seen(w, MPS__FIELD_REF),
+                  .area = mps__seen(w, MPS__FIELD_AREA),
                   .gone = w->work.gone};
 }
 
@@ -253,13 +252,13 @@ static void take_ahead(void *to, const double *most)
 
 void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
 {
-    aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                .u = mps__seen(w, w->particles.u),
+    aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+                .u = mps__seen(w, MPS__FIELD_VELOCITY),
                 .carry = mps__motion_carry(&w->motion, pose)};
     mps_view v;
     if (mps__world_rows_there(w) && w->lists.screens.count == 0) {
         f.rims = rims_of(w);
-        f.rims.count = mps__seen(w, w->lists.neighbours.count);
+        f.rims.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
     }
     for (int d = 0; d < 3; d++) {
         f.box.lo[d] = -INFINITY;
@@ -280,8 +279,8 @@ static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
 {
     double most[MPS__AHEADS] = {0};
     MPS__TRY(mps__twins_enter(&w->host.twins));
-    const aheads f = {.searched = mps__seen(w, w->lists.neighbours.searched),
-                      .u = mps__seen(w, w->particles.u),
+    const aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+                      .u = mps__seen(w, MPS__FIELD_VELOCITY),
                       .rims = rims_of(w)};
     mps__host_max(&w->host, v, MPS__AHEADS, &raise_aheads, &f, most);
     *any = most[MPS__AHEAD_SPILLED] > 0;

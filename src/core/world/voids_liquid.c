@@ -81,11 +81,11 @@ static mps_status find_rows(const found *k, const mps__voids *v, mps__world *w, 
 {
     const mps__particles *p = &w->particles;
     const bool there = k->device;
-    const liquid_fields f = {.kind = mps__seen(w, p->kind),
-                             .region = mps__seen(w, p->region),
+    const liquid_fields f = {.kind = mps__seen(w, MPS__FIELD_KIND),
+                             .region = mps__seen(w, MPS__FIELD_REGION),
                              .ghost = mps__ghosts_seen(&w->ghosts, k->device),
-                             .x = mps__seen(w, p->x),
-                             .ref = mps__seen(w, p->ref),
+                             .x = mps__seen(w, MPS__FIELD_POSITION),
+                             .ref = mps__seen(w, MPS__FIELD_REF),
                              .place = k->place,
                              .slab = k->slab,
                              .origin = {v->origin[0], v->origin[1], v->origin[2]},
@@ -119,7 +119,7 @@ static mps_status find_there(mps__device *d, mps__voids *v, mps__world *w, const
     mps__device_download(d, v->place, k.place, places);
     mps__device_download(d, v->slab, k.slab, slabs);
     /* needed on the host for occlusion */
-    if (w->lists.screens.count > 0) mps__seen(w, w->particles.x);
+    if (w->lists.screens.count > 0) mps__seen(w, MPS__FIELD_POSITION);
     return mps__device_status(d);
 }
 

@@ -24,7 +24,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__bounds_init(&w->bounds, context);
     mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
-    w->ahead.changes = w->booked = -1;
+    w->ahead.flow = w->booked = -1;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
@@ -40,7 +40,7 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
                           .parallel = &w->pool.parallel,
                           .ghosts = &w->ghosts,
                           .phase_defined = w->setup.phase_defined,
-                          .densities = {.changes = -1},
+                          .densities = {.versions = -1},
                           .sets = {.context = context}};
     mps__twins_init(&w->host.twins, &w->channels, &w->particles, &w->pool.parallel);
     mps__plan_init(&w->host.plan, passes, pass_count);
@@ -143,7 +143,8 @@ double mps__world_speed(mps__world *w)
     if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
     mps__world_view(w, &v);
     mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
-    const speeds f = {mps__seen(w, w->particles.u), mps__motion_carry(&w->motion, &w->motion.now)};
+    const speeds f = {mps__seen(w, MPS__FIELD_VELOCITY),
+                      mps__motion_carry(&w->motion, &w->motion.now)};
     mps__host_max(&w->host, &v, 1, &raise_speeds, &f, &most);
     mps__twins_go(&w->host.twins, MPS__ON_HOST);
     return sqrt(most);
@@ -211,7 +212,7 @@ mps_status mps__world_reserve(mps__world *w)
 static mps_status link_solids(mps__world *w)
 {
     mps_stencil near;
-    w->particles.changes++;
+    mps__particles_written(&w->particles);
     MPS__TRY(mps__world_link_walls(w));
     MPS__TRY(mps__plates_find(w));
     mps__neighbours_hide(&w->lists.neighbours);

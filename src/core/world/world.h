@@ -144,9 +144,8 @@ enum {
 };
 typedef struct mps__ahead {
     double most[MPS__AHEADS];
-    /* values of mps__particles.changes and mps_neighbours.searches at the end of the step; changes
-     * -1: no flags */
-    int64_t changes, searches;
+    /* mps__particles_flow() and mps_neighbours.searches at the end of the step; flow -1: no flags */
+    int64_t flow, searches;
     bool holds; /* the flags are valid in the step in progress */
 } mps__ahead;
 
@@ -217,7 +216,7 @@ typedef struct mps__world {
     mps__mass mass;
     bool ending; /* dt_max of a step is the rest of a run */
     mps__ahead ahead;
-    /* value of mps__particles.changes when the last step summed state.budget.last */
+    /* mps__particles_flow() when the last step summed state.budget.last */
     int64_t booked;
 } mps__world;
 
@@ -238,10 +237,10 @@ mps_status mps__world_neighbours_populated(mps__world *w);
  * the last search; the positions of that search. To be called before the host reads them outside of
  * the calls of a step. MPS_E_PLUGIN: only a device has them, and the copy failed. world_fields.c */
 mps_status mps__world_fetch(const mps__world *w);
-mps_status mps__world_fetch_field(const mps__world *w, const void *array);
+mps_status mps__world_fetch_field(const mps__world *w, int32_t field);
 /* Before a public function writes a field: copy it to the host, and invalidate the device's copy.
  * MPS_E_PLUGIN: nothing has changed. world_fields.c */
-mps_status mps__world_write_field(mps__world *w, const void *array);
+mps_status mps__world_write_field(mps__world *w, int32_t field);
 mps_status mps__world_fetch_lists(const mps__world *w);
 mps_status mps__world_fetch_searched(const mps__world *w);
 /* Whether a step begins on the device; whether the device also has the lists of the last search.
@@ -281,15 +280,24 @@ mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *s
 /* Mirror the arrays of those lists, and rotated wetted areas, on the device of a step that
  * begins. */
 mps_status mps__world_lists_twins(mps__world *w);
-/* Address of an array of a field or list in the memory space of the loops, for loops that read it;
- * for loops that overwrite all of it. */
-static inline void *mps__seen(const mps__world *w, const void *array)
+/* Address of a field, MPS__FIELD_..., in the memory space of the loops, for loops that read it; for
+ * loops that overwrite all of it. */
+static inline void *mps__seen(const mps__world *w, int32_t field)
 {
-    return mps__twins_seen((mps__twins *)&w->host.twins, array);
+    return mps__twins_seen((mps__twins *)&w->host.twins, field);
 }
-static inline void *mps__given(mps__world *w, void *array)
+static inline void *mps__given(mps__world *w, int32_t field)
 {
-    return mps__twins_given(&w->host.twins, array, true);
+    return mps__twins_given(&w->host.twins, field);
+}
+/* Address of a list, MPS__ROWS_... and so on, whose array on the host is `host`. */
+static inline void *mps__seen_list(const mps__world *w, int32_t list, const void *host)
+{
+    return mps__twins_list_seen((mps__twins *)&w->host.twins, list, host);
+}
+static inline void *mps__given_list(mps__world *w, int32_t list, void *host)
+{
+    return mps__twins_list_given(&w->host.twins, list, host, true);
 }
 /* A stencil with the rows of all particles, from valid lists. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);

@@ -20,23 +20,15 @@ mps_status mps__world_fetch(const mps__world *w)
     return tell(w, mps__twins_fetch((mps__twins *)&w->host.twins));
 }
 
-mps_status mps__world_fetch_field(const mps__world *w, const void *array)
+mps_status mps__world_fetch_field(const mps__world *w, int32_t field)
 {
-    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, array));
+    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, field));
 }
 
-mps_status mps__world_write_field(mps__world *w, const void *array)
+mps_status mps__world_write_field(mps__world *w, int32_t field)
 {
-    mps__particles *s = &w->particles;
-    const int64_t before = s->changes;
-    MPS__TRY(mps__world_fetch_field(w, array));
-    s->changes++;
-    mps__twins_changed_alone(&w->host.twins, array, before);
-    if (array != s->rho) mps__densities_kept(&w->host.densities, s, before);
-    if (array == s->x || array == s->u || array == s->rho) return MPS_OK;
-    /* sums of the flow, and the next-step flags, depend on these three alone */
-    if (w->booked == before) w->booked = s->changes;
-    if (w->ahead.changes == before) w->ahead.changes = s->changes;
+    MPS__TRY(mps__world_fetch_field(w, field));
+    mps__array_written(mps__field_array(&w->particles.field[field]), MPS__ON_HOST);
     return MPS_OK;
 }
 

@@ -154,16 +154,14 @@ mps_status mps__world_share_step(mps__world *w)
 {
     mps__particles *s = &w->particles;
     mps__twins *t = &w->host.twins;
-    bool *load = mps__channels_stale(&w->channels, s, MPS__WALL_PRESSURE);
+    const mps__array *load = mps__channels_of(&w->channels, s, MPS__WALL_PRESSURE);
     mps__shared shared[1 + MPS__FIELDS_MAX];
     int32_t count = 0;
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
-    if (*load) shared[count++] = mps__twins_shared(t, MPS__WALL_PRESSURE);
-    *load = false;
-    for (int32_t k = 0; k < s->fields; k++) {
-        if (s->field[k].stale) shared[count++] = mps__twins_shared_field(t, k);
-        s->field[k].stale = false;
-    }
+    if (!mps__array_ghosts_valid(load)) shared[count++] = mps__twins_shared(t, MPS__WALL_PRESSURE);
+    for (int32_t k = 0; k < s->fields; k++)
+        if (!mps__array_ghosts_valid(&s->field[k].array))
+            shared[count++] = mps__twins_shared_field(t, k);
     return mps__ghosts_share_at(&w->ghosts, &t->device, shared, count);
 }
 
@@ -174,11 +172,8 @@ mps_status mps__world_share_written(mps__world *w)
     int32_t count = 0;
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
-    for (int32_t k = 0; k < s->fields; k++) {
-        if (!s->field[k].is_public) continue;
-        shared[count++] = mps__twins_shared_field(&w->host.twins, k);
-        mps__twins_changed(&w->host.twins, *s->field[k].data);
-    }
+    for (int32_t k = 0; k < s->fields; k++)
+        if (s->field[k].is_public) shared[count++] = mps__twins_shared_field(&w->host.twins, k);
     return mps__ghosts_share(&w->ghosts, shared, count);
 }
 
@@ -197,13 +192,10 @@ mps_status mps__world_divide(mps__world *w)
     MPS__TRY(mps__world_order(w, &there));
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
     MPS__TRY(mps__particles_permute_reserve(s, s->n));
-    MPS__TRY(mps__twins_permute(&w->host.twins, l->order, there));
-    const int64_t changes = s->changes;
-    bool old[MPS__FIELDS_MAX];
-    mps__twins_old(&w->host.twins, old);
+    bool moved[MPS__FIELDS_MAX], old[MPS__FIELDS_MAX];
+    MPS__TRY(mps__twins_permute(&w->host.twins, l->order, there, moved, old));
     MPS__TRY(mps__particles_reorder(s, s->n, l->order, old));
-    mps__twins_permuted(&w->host.twins, changes);
-    if (!mps__ranks_many(&w->ranks)) mps__densities_kept(&w->host.densities, s, changes);
+    mps__twins_permuted(&w->host.twins, moved);
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;

@@ -54,6 +54,12 @@ static mps_status make_columns(mps__world *w, bool values)
                             values);
 }
 
+/* List of the ends of the far rows: if the radii are equal, those of the near rows. */
+static int32_t end_of(const mps_neighbours *l)
+{
+    return l->end == l->middle ? MPS__ROWS_MIDDLE : MPS__ROWS_END;
+}
+
 /* ---- order ---- */
 
 /* With loops on the device. NULL: failed. */
@@ -63,8 +69,8 @@ static mps_status order_there(mps__world *w, const int32_t **there)
     mps_neighbours *l = &w->lists.neighbours;
     mps__twins *t = &w->host.twins;
     const size_t n = (size_t)s->n;
-    const mps__order_arrays a = {.x = mps__seen(w, s->x),
-                                 .id = mps__seen(w, s->id),
+    const mps__order_arrays a = {.x = mps__seen(w, MPS__FIELD_POSITION),
+                                 .id = mps__seen(w, MPS__FIELD_ID),
                                  .key = mps__twins_room(t, 0, 2 * n * sizeof *a.key),
                                  .order = mps__twins_room(t, 1, 2 * n * sizeof *a.order)};
     if (!a.key || !a.order) return MPS_E_NOMEM;
@@ -101,24 +107,24 @@ static mps_status search_there(mps__world *w, bool *found)
     mps_neighbours *l = &w->lists.neighbours;
     MPS__TRY(make_lists(w, false));
     mps__search_arrays there = {
-        .x = mps__seen(w, w->particles.x),
-        .kind = mps__seen(w, w->particles.kind),
+        .x = mps__seen(w, MPS__FIELD_POSITION),
+        .kind = mps__seen(w, MPS__FIELD_KIND),
         .key = mps__twins_room(t, 0, (size_t)l->n * sizeof *there.key),
-        .begin = mps__given(w, l->begin),
-        .middle = mps__given(w, l->middle),
-        .end = mps__given(w, l->end),
-        .count = mps__given(w, l->count),
-        .idle = mps__given(w, l->idle),
-        .rim = mps__given(w, l->rim),
+        .begin = mps__given_list(w, MPS__ROWS_BEGIN, l->begin),
+        .middle = mps__given_list(w, MPS__ROWS_MIDDLE, l->middle),
+        .end = mps__given_list(w, end_of(l), l->end),
+        .count = mps__given_list(w, MPS__ROWS_COUNT, l->count),
+        .idle = mps__given_list(w, MPS__IDLE_ROWS, l->idle),
+        .rim = mps__given_list(w, MPS__RIM_ROWS, l->rim),
     };
     if (!there.key) return MPS_E_NOMEM;
     MPS__TRY(mps__neighbours_count_there(l, &there));
     MPS__TRY(mps__device_status(&t->device));
     if (l->longest > 0) return MPS_OK;
     MPS__TRY(make_columns(w, false));
-    there.col = mps__given(w, l->col);
+    there.col = mps__given_list(w, MPS__ROWS_COLUMNS, l->col);
     mps__neighbours_fill_there(l, &there);
-    mps__device_copy(&t->device, mps__given(w, l->searched), there.x,
+    mps__device_copy(&t->device, mps__given_list(w, MPS__SEARCHED, l->searched), there.x,
                      (size_t)(l->n * l->dim) * sizeof *l->searched);
     *found = true;
     return MPS_OK;
@@ -175,15 +181,15 @@ static mps__row_arrays arrays_there(mps__world *w)
     mps__twins *t = &w->host.twins;
     const mps_neighbours *l = &w->lists.neighbours;
     const mps__screens *p = &w->lists.screens;
-    return (mps__row_arrays){.x = mps__seen(w, w->particles.x),
-                             .begin = mps__seen(w, l->begin),
-                             .count = mps__seen(w, l->count),
-                             .middle = mps__twins_given(t, l->middle, false),
-                             .end = mps__twins_given(t, l->end, false),
-                             .col = mps__twins_given(t, l->col, false),
-                             .screen = mps__seen(w, p->list),
-                             .seer = mps__seen(w, p->seer),
-                             .slot = mps__seen(w, p->slot)};
+    return (mps__row_arrays){.x = mps__seen(w, MPS__FIELD_POSITION),
+                             .begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+                             .count = mps__seen_list(w, MPS__ROWS_COUNT, l->count),
+                             .middle = mps__twins_list_given(t, MPS__ROWS_MIDDLE, l->middle, false),
+                             .end = mps__twins_list_given(t, end_of(l), l->end, false),
+                             .col = mps__twins_list_given(t, MPS__ROWS_COLUMNS, l->col, false),
+                             .screen = mps__seen_list(w, MPS__SCREEN_LIST, p->list),
+                             .seer = mps__seen_list(w, MPS__SEER_LIST, p->seer),
+                             .slot = mps__seen_list(w, MPS__SEER_SLOTS, p->slot)};
 }
 
 mps_status mps__world_hide_there(mps__world *w)
@@ -222,16 +228,17 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
     else
         MPS__TRY(mps__world_fetch(w));
     if (!there && l->valid) MPS__TRY(mps__world_fetch_searched(w));
-    *fresh = mps__neighbours_fresh(l, s->n, mps__seen(w, s->x), mps__seen(w, l->searched),
-                                   mps__ghosts_seen(&w->ghosts, mps__device_of(&w->pool.parallel)),
-                                   w->setup.re_far);
+    *fresh = mps__neighbours_fresh(
+        l, s->n, mps__seen(w, MPS__FIELD_POSITION), mps__seen_list(w, MPS__SEARCHED, l->searched),
+        mps__ghosts_seen(&w->ghosts, mps__device_of(&w->pool.parallel)), w->setup.re_far);
     return there ? mps__twins_leave(&w->host.twins) : MPS_OK;
 }
 
 mps_status mps__world_rows(mps__world *w)
 {
     const bool there = mps__world_rows_there(w);
-    if (w->lists.screens.count > 0 || !there) MPS__TRY(mps__world_fetch_field(w, w->particles.x));
+    if (w->lists.screens.count > 0 || !there)
+        MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
     mps__plates_look(w);
     if (there) return rows_there(w);
     MPS__TRY(mps__world_fetch_lists(w));
