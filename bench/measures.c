@@ -40,7 +40,7 @@ double bench_triad(void)
     return best;
 }
 
-/* The size stands before each block, in room that keeps malloc's alignment. */
+/* The size stands before each block, in bytes that keep malloc's alignment. */
 enum { BEFORE = 32 };
 
 static void *take(void *user, size_t size)
@@ -54,7 +54,7 @@ static void *take(void *user, size_t size)
     return block + BEFORE;
 }
 
-static void give(void *user, void *block)
+static void release(void *user, void *block)
 {
     bench_memory *m = user;
     char *start = (char *)block - BEFORE;
@@ -65,5 +65,5 @@ static void give(void *user, void *block)
 mps_allocator bench_allocator(bench_memory *memory)
 {
     *memory = (bench_memory){0};
-    return (mps_allocator){take, give, memory};
+    return (mps_allocator){take, release, memory};
 }

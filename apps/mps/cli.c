@@ -16,7 +16,7 @@ const option cli_options[] = {
     {HAS_OUT, "--out", 'o', "PLACE", "folder or file of the outputs; default: the name of the case",
      OPTION_TEXT, offsetof(choices, out)},
     {HAS_PLUGIN, "--plugin", 0, "FILE",
-     "load a plug-in, or this one in place of that of the case; may be repeated", OPTION_PLUGIN, 0},
+     "load a plug-in, or this one instead of that of the case; may be repeated", OPTION_PLUGIN, 0},
     {HAS_TRUST, "--allow-plugins", 0, NULL, "load the plug-ins that a page names, too", OPTION_FLAG,
      offsetof(choices, allow_plugins)},
     {HAS_THREADS, "--threads", 'j', "N", "threads; results do not depend on them", OPTION_COUNT,
@@ -35,7 +35,7 @@ const option cli_options[] = {
     {HAS_FREQUENCIES, "--period", 0, "LIST", "periods, '0.8 0.9 T1' or '0.7 to 2 step 0.1 T1'",
      OPTION_TEXT, offsetof(choices, period)},
     {HAS_FREQUENCIES, "--omega", 0, "LIST",
-     "angular frequencies in place of periods, '4 to 8 step 0.5 rad/s'", OPTION_TEXT,
+     "angular frequencies instead of periods, '4 to 8 step 0.5 rad/s'", OPTION_TEXT,
      offsetof(choices, omega)},
     {HAS_FREQUENCIES, "--amplitude", 0, "VALUE",
      "of the motion; for a shift, an angle s means s g/w^2; default 0.25 deg", OPTION_TEXT,
@@ -75,7 +75,8 @@ void cli_print_help(const verb *v)
 
 static int refuse(const choices *c, const char *what, const char *why)
 {
-    cli_say(c, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why, c->verb);
+    cli_print(c, "mps %s: %s: %s\n'mps %s --help' lists all options\n", c->verb, what, why,
+              c->verb);
     return MPS_EXIT_USAGE;
 }
 
@@ -175,10 +176,10 @@ int cli_flush(const choices *c, int code)
     errno = 0;
     const bool good = fflush(stdout) == 0 && !ferror(stdout);
     if (good || code != MPS_EXIT_OK) return code;
-    cli_say(c, "mps %s: cannot write to stdout: %s\n", c->verb,
-            strerror(errno    ? errno
-                     : before ? before
-                              : EIO));
+    cli_print(c, "mps %s: cannot write to stdout: %s\n", c->verb,
+              strerror(errno    ? errno
+                       : before ? before
+                                : EIO));
     return MPS_EXIT_FAILED;
 }
 
@@ -202,7 +203,7 @@ void cli_print_messages(const choices *c, const mps_case *tank, size_t before)
     char *text = malloc(size);
     if (!text) return;
     mps_case_messages_write(tank, text, size);
-    cli_say(c, "%s", text + before);
+    cli_print(c, "%s", text + before);
     free(text);
 }
 
@@ -224,7 +225,7 @@ mps_case *cli_case(const choices *c, int *code)
     const mps_status status = cli_open(c, &out);
     if (out) cli_print_messages(c, out, 0);
     if (status == MPS_OK) return out;
-    if (!out) cli_say(c, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
+    if (!out) cli_print(c, "mps %s: %s: %s\n", c->verb, c->file[0], mps_status_text(status));
     *code = status == MPS_E_ARG || status == MPS_E_IO ? MPS_EXIT_USAGE : MPS_EXIT_FAILED;
     mps_case_destroy(out);
     return NULL;

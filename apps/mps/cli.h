@@ -130,7 +130,7 @@ int cli_begin(choices *c, int argc, char **argv);
  * @return -1: continue; else the exit code */
 int cli_check_alone(const choices *c);
 /* Print a message. */
-void cli_say(const choices *c, const char *format, ...);
+void cli_print(const choices *c, const char *format, ...);
 /* Agree on whether all ranks continue, which they do if all have code < 0; one of the failed ranks
  * shows its messages.
  * @return -1: continue; else the exit code of all */

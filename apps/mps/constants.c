@@ -5,11 +5,11 @@
 
 const char *quantity(double value, const char *unit)
 {
-    enum { TEXTS = 8, ROOM = 48 };
-    static char text[TEXTS][ROOM];
+    enum { TEXTS = 8, CAPACITY = 48 };
+    static char text[TEXTS][CAPACITY];
     static int next;
     next = (next + 1) % TEXTS;
-    mps_quantity_write(value, unit, text[next], ROOM);
+    mps_quantity_write(value, unit, text[next], CAPACITY);
     return text[next];
 }
 

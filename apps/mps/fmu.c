@@ -66,7 +66,7 @@ static void describe(fmu_about *a, const choices *c, const mps_case *tank)
 }
 
 /* With --quiet. */
-static void say_nothing(void *user, int32_t kind, const char *text)
+static void print_nothing(void *user, int32_t kind, const char *text)
 {
     (void)user, (void)kind, (void)text;
 }
@@ -75,7 +75,7 @@ static void say_nothing(void *user, int32_t kind, const char *text)
 static bool open_model(const choices *c, mps_case *tank, fmu_model *m)
 {
     char error[ERROR_SIZE] = "";
-    if (fmu_model_open(m, tank, c->quiet ? say_nothing : NULL, NULL, error, sizeof error))
+    if (fmu_model_open(m, tank, c->quiet ? print_nothing : NULL, NULL, error, sizeof error))
         return true;
     /* messages of the case end with a newline, one of the system does not */
     fprintf(stderr, "mps %s: %s%s", c->verb, error, strchr(error, '\n') ? "" : "\n");

@@ -21,14 +21,14 @@ typedef struct gathered_run {
     summary_input *input;
 } gathered_run;
 
-typedef struct gathering {
+typedef struct collection {
     const choices *c;
     int32_t runs;
     gathered_run *run;
     int32_t varied;
     char key[VARIED_MOST][SUMMARY_TEXT];
     collect collect;
-} gathering;
+} collection;
 
 /* ---- runs ---- */
 
@@ -40,7 +40,7 @@ static bool has_summary(const char *folder)
     return stat(path, &s) == 0 && S_ISREG(s.st_mode);
 }
 
-static bool add_run(gathering *g, const char *folder)
+static bool add_run(collection *g, const char *folder)
 {
     gathered_run *grown = mps__grown(g->run, g->runs, sizeof *grown);
     char *copy = malloc(strlen(folder) + 1);
@@ -60,7 +60,7 @@ static int by_name(const void *a, const void *b)
 }
 
 /* Add a folder of a run, or the runs in its folders. @return exit code, -1: continue */
-static int add_folder(gathering *g, const char *folder)
+static int add_folder(collection *g, const char *folder)
 {
     char path[SERIES_PATH];
     const int32_t before = g->runs;
@@ -107,7 +107,7 @@ static bool is_of_no_interest(const char *key)
     return strchr(key, ' ') != NULL;
 }
 
-static bool differs(const gathering *g, const char *key)
+static bool differs(const collection *g, const char *key)
 {
     const char *first = value_of(&g->run[0], key);
     for (int32_t i = 1; i < g->runs; i++) {
@@ -117,14 +117,14 @@ static bool differs(const gathering *g, const char *key)
     return false;
 }
 
-static bool is_known(const gathering *g, const char *key)
+static bool is_known(const collection *g, const char *key)
 {
     for (int32_t k = 0; k < g->varied; k++)
         if (strcmp(g->key[k], key) == 0) return true;
     return false;
 }
 
-static bool find_varied(gathering *g)
+static bool find_varied(collection *g)
 {
     for (int32_t i = 0; i < g->runs; i++) {
         gathered_run *r = &g->run[i];
@@ -166,7 +166,7 @@ static double si_value(const gathered_run *r, const char *key, char unit[UNIT_SI
 }
 
 /* Whether an input is numeric; the unit of the first. */
-static bool is_number(const gathering *g, const char *key, char unit[UNIT_SIZE])
+static bool is_number(const collection *g, const char *key, char unit[UNIT_SIZE])
 {
     double value;
     for (int32_t i = 0; i < g->runs; i++) {
@@ -176,7 +176,7 @@ static bool is_number(const gathering *g, const char *key, char unit[UNIT_SIZE])
     return false;
 }
 
-static void write_names(const gathering *g, FILE *out, const mps_table *first)
+static void write_names(const collection *g, FILE *out, const mps_table *first)
 {
     char unit[UNIT_SIZE];
     fputs("run", out);
@@ -189,7 +189,7 @@ static void write_names(const gathering *g, FILE *out, const mps_table *first)
     fputc('\n', out);
 }
 
-static void write_run(const gathering *g, FILE *out, int32_t i, const mps_table *first)
+static void write_run(const collection *g, FILE *out, int32_t i, const mps_table *first)
 {
     const gathered_run *r = &g->run[i];
     char unit[UNIT_SIZE];
@@ -209,7 +209,7 @@ static void write_run(const gathering *g, FILE *out, int32_t i, const mps_table 
 }
 
 /* Read `collect` of the case of a run. */
-static bool read_collect(gathering *g, const char *folder)
+static bool read_collect(collection *g, const char *folder)
 {
     char path[SERIES_PATH + 16];
     mps_case *tank = NULL;
@@ -221,7 +221,7 @@ static bool read_collect(gathering *g, const char *folder)
     return good;
 }
 
-static int write_all(gathering *g)
+static int write_all(collection *g)
 {
     char path[SERIES_PATH + 16];
     mps_table *first = NULL;
@@ -248,9 +248,9 @@ static int write_all(gathering *g)
 
 int verb_collect(const choices *c)
 {
-    static gathering g;
+    static collection g;
     int code = -1;
-    g = (gathering){.c = c};
+    g = (collection){.c = c};
     for (int32_t k = 0; k < c->files && code < 0; k++) code = add_folder(&g, c->file[k]);
     if (code < 0 && !find_varied(&g)) {
         fprintf(stderr, "mps collect: no memory\n");

@@ -58,7 +58,7 @@ static bool read_number(const head *h, const part *p, const char *title, void *o
     return fread(out, 8, 1, h->file) == 1 && fseek(h->file, -8, SEEK_CUR) == 0;
 }
 
-static bool tell_checkpoint(const head *h)
+static bool describe_checkpoint(const head *h)
 {
     part p;
     double t = NAN;
@@ -100,7 +100,7 @@ static bool attribute(const char *text, const char *name, char *out, size_t size
     return true;
 }
 
-static bool tell_frame(const head *h)
+static bool describe_frame(const head *h)
 {
     char points[32], name[64];
     if (!strstr(h->text, "<VTKFile") ||
@@ -112,14 +112,14 @@ static bool tell_frame(const head *h)
     return true;
 }
 
-static bool tell_series(const head *h)
+static bool describe_series(const head *h)
 {
     if (!strstr(h->text, "<VTKFile") || !strstr(h->text, "type=\"Collection\"")) return false;
     printf("series of frames for ParaView, %lld bytes\n", h->size);
     return true;
 }
 
-static bool tell_page(const head *h)
+static bool describe_page(const head *h)
 {
     if (!strstr(h->text, "<!DOCTYPE html") && !strstr(h->text, "<html")) return false;
     printf("page, %lld bytes; open it in a browser; 'mps run' runs the case that it carries\n",
@@ -127,7 +127,7 @@ static bool tell_page(const head *h)
     return true;
 }
 
-static bool tell_case(const head *h)
+static bool describe_case(const head *h)
 {
     if (!is_text(h)) return false;
     if (strncmp(h->text, "mps:", 4) != 0 && !strstr(h->text, "\nmps:")) return false;
@@ -137,7 +137,7 @@ static bool tell_case(const head *h)
     return true;
 }
 
-static bool tell_summary(const head *h)
+static bool describe_summary(const head *h)
 {
     const char *first = h->text + 1 + strspn(h->text + (h->count > 0), " \t\r\n");
     if (!is_text(h) || h->text[0] != '{' || (*first != '"' && *first != '}')) return false;
@@ -146,7 +146,7 @@ static bool tell_summary(const head *h)
 }
 
 /* Describe a table: names of the columns, rows, first and last value of the first column. */
-static bool tell_table(const head *h)
+static bool describe_table(const head *h)
 {
     char line[65536], last[64] = "", first[64] = "";
     long long rows = 0;
@@ -169,15 +169,15 @@ static bool tell_table(const head *h)
 
 /* ---- all ---- */
 
-static int tell(head *h)
+static int describe(head *h)
 {
-    static bool (*const tells[])(const head *) = {tell_checkpoint, tell_frame, tell_series,
-                                                  tell_page,       tell_case,  tell_summary,
-                                                  info_surface,    tell_table};
+    static bool (*const describes[])(const head *) = {
+        describe_checkpoint, describe_frame,   describe_series, describe_page,
+        describe_case,       describe_summary, info_surface,    describe_table};
     h->count = fread(h->text, 1, HEAD, h->file);
     h->text[h->count] = '\0';
-    for (size_t i = 0; i < sizeof tells / sizeof *tells; i++)
-        if (tells[i](h)) return MPS_EXIT_OK;
+    for (size_t i = 0; i < sizeof describes / sizeof *describes; i++)
+        if (describes[i](h)) return MPS_EXIT_OK;
     fprintf(stderr, "mps info: %s: is no file of mps\n", h->path);
     return MPS_EXIT_USAGE;
 }
@@ -198,7 +198,7 @@ static void print_run(const char *path)
 }
 
 /* Describe the outputs in the folder of a run. */
-static int tell_folder(const char *path)
+static int describe_folder(const char *path)
 {
     static const struct {
         const char *file, *what;
@@ -228,14 +228,14 @@ int verb_info(const choices *c)
     struct stat status;
     FILE *file = NULL;
     h.path = c->file[0];
-    if (stat(h.path, &status) == 0 && S_ISDIR(status.st_mode)) return tell_folder(h.path);
+    if (stat(h.path, &status) == 0 && S_ISDIR(status.st_mode)) return describe_folder(h.path);
     if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(file = fopen(h.path, "rb"))) {
         fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
         return MPS_EXIT_USAGE;
     }
     h.file = file;
     h.size = (long long)status.st_size;
-    const int code = tell(&h);
+    const int code = describe(&h);
     fclose(file);
     return code;
 }

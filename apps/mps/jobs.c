@@ -218,16 +218,16 @@ static void wait_all(crew *w, bool shows)
 {
     const struct timespec pause = {.tv_nsec = PAUSE_MS * 1000000L};
     const bool terminal = isatty(2) != 0;
-    bool told = false;
+    bool stop_sent = false;
     w->shown = now();
     while (count_alive(w) > 0) {
         if (signalled) {
             atomic_store(&w->b->stop, MPS_EXIT_INTERRUPTED);
-            send(w, told ? SIGKILL : SIGTERM);
-            if (!told && !w->p->c->quiet)
+            send(w, stop_sent ? SIGKILL : SIGTERM);
+            if (!stop_sent && !w->p->c->quiet)
                 fprintf(stderr, "%smps %s: stopping; each run writes a checkpoint\n",
                         terminal ? "\r\033[K" : "", w->p->c->verb);
-            told = true;
+            stop_sent = true;
             signalled = 0;
         }
         if (shows) show_progress(w, terminal);

@@ -55,7 +55,7 @@ static bool choices_of(const plan *p, int64_t index, choices *one, char folder[S
     return false;
 }
 
-static void say_run(const plan *p, int64_t index, const char *what, const choices *one)
+static void print_run(const plan *p, int64_t index, const char *what, const choices *one)
 {
     char line[1024];
     size_t used = (size_t)snprintf(line, sizeof line, "mps %s: run %lld of %lld%s", p->c->verb,
@@ -71,12 +71,12 @@ int plan_take(const plan *p, int64_t index, bool quiet)
     char folder[SERIES_PATH];
     choices one;
     if (!choices_of(p, index, &one, folder)) return MPS_EXIT_USAGE;
-    if (!p->c->quiet && !quiet) say_run(p, index, "", &one);
+    if (!p->c->quiet && !quiet) print_run(p, index, "", &one);
     one.quiet = one.quiet || quiet;
     bool busy = false;
     const int code = series_run(&one, folder, &busy);
     if (busy) return PLAN_OPEN;
-    if (!p->c->quiet && quiet && code == MPS_EXIT_OK) say_run(p, index, " is done", &one);
+    if (!p->c->quiet && quiet && code == MPS_EXIT_OK) print_run(p, index, " is done", &one);
     if (code != MPS_EXIT_OK)
         fprintf(stderr, "mps %s: %s %s, exit code %d\n", p->c->verb, folder,
                 code == MPS_EXIT_INTERRUPTED ? "was interrupted" : "failed", code);
@@ -97,7 +97,7 @@ static bool check_run(const plan *p, int64_t index)
     mps_status status = cli_open(&one, &tank);
     if (status == MPS_OK) status = mps_case_check(tank, NULL, NULL);
     if (status != MPS_OK) {
-        say_run(p, index, " is refused", &one);
+        print_run(p, index, " is refused", &one);
         if (tank) cli_print_messages(&one, tank, 0);
     }
     mps_case_destroy(tank);
@@ -137,7 +137,7 @@ static void look_at_others(plan *p)
             p->code[i] = MPS_EXIT_OK;
 }
 
-void plan_say_open(const plan *p)
+void plan_print_open(const plan *p)
 {
     int64_t open = 0;
     for (int64_t i = 0; i < p->runs; i++) open += p->code[i] == PLAN_OPEN;

@@ -26,6 +26,6 @@ typedef struct plan {
  * plan->code is NULL then */
 int plan_run(plan *p);
 /* Print the unfinished runs as text for users. */
-void plan_say_open(const plan *p);
+void plan_print_open(const plan *p);
 
 #endif

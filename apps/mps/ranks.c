@@ -12,7 +12,7 @@
  * TELLS. */
 enum { FAILS, TELLS, VALUES };
 
-void cli_say(const choices *c, const char *format, ...)
+void cli_print(const choices *c, const char *format, ...)
 {
     va_list values;
     va_start(values, format);
@@ -89,7 +89,7 @@ int cli_end(const choices *c, int code)
     int32_t speak;
     if (!c->kept) return code;
     const mps_job_ranks *r = &c->kept->ranks;
-    const int32_t all = mps_job_ranks_leave(r, code, &speak);
+    const int32_t all = mps_job_ranks_exit(r, code, &speak);
     show(c, speak != 0);
     if (all < 0) r->abort(r->user, MPS_EXIT_FAILED);
     r->end(r->user);

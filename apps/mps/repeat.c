@@ -110,7 +110,7 @@ static int save_repeat(const choices *c, int32_t count, mps_table *const *rows, 
 
 /* Print how the runs differ: a tank that is filled with whole spacings has the same dp for several
  * requested values. */
-static void say_varied(int32_t count, mps_table *const *rows, const double *dp)
+static void print_varied(int32_t count, mps_table *const *rows, const double *dp)
 {
     double least = INFINITY, most = 0;
     int32_t runs = 0, spacings = 0;
@@ -144,7 +144,7 @@ int verb_repeat(const choices *c)
     for (int32_t k = 0; k < count; k++) factor[k] = 1 + SPREAD * (2.0 * k / (count - 1) - 1);
     int code = series_of_dp(c, count, factor, true, rows, dp);
     if (code != MPS_EXIT_INTERRUPTED && first_of(count, rows)) {
-        say_varied(count, rows, dp);
+        print_varied(count, rows, dp);
         print_repeat(count, rows);
         code = save_repeat(c, count, rows, dp, factor, code);
     }

@@ -24,7 +24,7 @@ static int run_case(const choices *c, mps_case *tank, const mps_job_config *conf
     mps_sim *sim;
     const size_t before = cli_messages(tank);
     if (mps_case_sweep_count(tank) > 0) {
-        cli_say(c, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb, c->file[0]);
+        cli_print(c, "mps %s: %s: the case has a 'sweep'; use 'mps sweep'\n", c->verb, c->file[0]);
         return MPS_EXIT_USAGE;
     }
     const mps_status status = mps_case_job(tank, config, &job, &sim);
@@ -34,8 +34,8 @@ static int run_case(const choices *c, mps_case *tank, const mps_job_config *conf
         if (cli_messages(tank) > before)
             cli_print_messages(c, tank, before);
         else
-            cli_say(c, "mps %s: %s\n", c->verb,
-                    config->error[0] ? config->error : mps_status_text(status));
+            cli_print(c, "mps %s: %s\n", c->verb,
+                      config->error[0] ? config->error : mps_status_text(status));
         return code_of(status);
     }
     if (!c->quiet) cli_print_messages(c, tank, before);

@@ -29,7 +29,7 @@ static FILE *open_in(const char *folder, const char *name)
     return fopen(path, "r");
 }
 
-static bool is_there(const char *folder, const char *name)
+static bool exists(const char *folder, const char *name)
 {
     FILE *file = open_in(folder, name);
     if (file) fclose(file);
@@ -103,7 +103,7 @@ int series_run(const choices *c, const char *folder, bool *busy)
     config.error_size = sizeof error;
     const bool read = cli_open(c, &tank) == MPS_OK;
     if (read && c->jobs > 1) share_processors(&one, tank);
-    const bool earlier = is_there(folder, "case.yaml") && !c->overwrite,
+    const bool earlier = exists(folder, "case.yaml") && !c->overwrite,
                same = earlier && read && same_case(tank, folder);
     mps_case_destroy(tank);
     if (earlier && !same) return refuse_other(c, folder);
@@ -211,7 +211,7 @@ int series_of_dp(const choices *c, int32_t count, const double *factor, bool ste
         rows[k] = done ? series_table(c, folder) : NULL;
         dp[k] = rows[k] ? summary_number(folder, "dp") : NAN;
     }
-    if (p.code) plan_say_open(&p);
+    if (p.code) plan_print_open(&p);
     free(p.code);
     return worst;
 }

@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { HIGHEST = 10, PATH_ROOM = 4096 };
+enum { HIGHEST = 10, PATH_CAPACITY = 4096 };
 
 /* The signals of a run and their impacts. */
 typedef struct signals {
@@ -56,12 +56,12 @@ static int take_pressures(const mps_stats_config *config, const record *r, signa
     return MPS_EXIT_USAGE;
 }
 
-static bool make_signals(signals *s, size_t room)
+static bool make_signals(signals *s, size_t capacity)
 {
-    s->column = calloc(room, sizeof *s->column);
-    s->name = calloc(room, sizeof *s->name);
+    s->column = calloc(capacity, sizeof *s->column);
+    s->name = calloc(capacity, sizeof *s->name);
     /* NOLINTNEXTLINE(bugprone-sizeof-expression): an array of pointers */
-    s->impacts = calloc(room, sizeof *s->impacts);
+    s->impacts = calloc(capacity, sizeof *s->impacts);
     return s->column && s->name && s->impacts;
 }
 
@@ -143,7 +143,7 @@ static double wanted_end(const mps_impacts_info *info, const mps_stats_config *c
 
 static void print_too_few(const mps_impacts_info *info, const mps_stats_config *c, const record *r)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     printf("  no distribution is fitted: that needs %d events", (int)c->least_events);
     if (info->events > 1) {
         printf(", at this rate a record of about %s", quantity(c->least_events / info->rate, "s"));
@@ -223,7 +223,7 @@ static size_t write_text(const signals *s, bool json, char *buffer, size_t size)
 /* Write statistics.json or statistics.csv. @return exit code */
 static int write_file(const char *folder, const char *name, const signals *s, bool json)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     const size_t size = write_text(s, json, NULL, 0) + 1;
     char *text = malloc(size);
     if (!text || write_text(s, json, text, size) + 1 != size || size == 1) {

@@ -168,7 +168,7 @@ int verb_sweep(const choices *c)
         series_place(c, s.p.place);
         code = plan_run(&s.p);
         const int table = s.p.code ? write_table(&s) : MPS_EXIT_OK;
-        if (s.p.code) plan_say_open(&s.p);
+        if (s.p.code) plan_print_open(&s.p);
         if (code == MPS_EXIT_OK) code = table;
     }
     free(s.p.code);

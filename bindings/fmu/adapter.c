@@ -9,7 +9,7 @@
 
 enum { TEXT_SIZE = 8192 };
 
-fmu_status fmu_tell(const fmu *f, fmu_status status, const char *format, ...)
+fmu_status fmu_log(const fmu *f, fmu_status status, const char *format, ...)
 {
     char text[TEXT_SIZE];
     va_list values;
@@ -17,20 +17,20 @@ fmu_status fmu_tell(const fmu *f, fmu_status status, const char *format, ...)
     vsnprintf(text, sizeof text, format, values);
     va_end(values);
     for (size_t n = strlen(text); n > 0 && text[n - 1] == '\n'; n--) text[n - 1] = '\0';
-    f->say(f->user, status, text);
+    f->print(f->user, status, text);
     return status;
 }
 
 fmu_status fmu_refused(fmu *f, fmu_status status, const char *call)
 {
-    return fmu_tell(f, status, "%s: %s", call, mps_sim_error(f->model.sim));
+    return fmu_log(f, status, "%s: %s", call, mps_sim_error(f->model.sim));
 }
 
 /* Forwards log messages of the library. */
-static void say_log(void *user, int32_t kind, const char *text)
+static void log_text(void *user, int32_t kind, const char *text)
 {
     const fmu *f = user;
-    if (f->chatty && kind == MPS_JOB_MESSAGE) fmu_tell(f, FMU_OK, "%s", text);
+    if (f->chatty && kind == MPS_JOB_MESSAGE) fmu_log(f, FMU_OK, "%s", text);
 }
 
 /* ---- creation and release ---- */
@@ -57,21 +57,21 @@ static bool open_case(fmu *f, const char *resources, const char *token)
     const mps_status status = mps_case_read(path, 0, NULL, &c);
     if (status != MPS_OK) {
         if (c) mps_case_messages_write(c, error, sizeof error);
-        fmu_tell(f, FMU_ERROR, "%s", c ? error : mps_status_text(status));
+        fmu_log(f, FMU_ERROR, "%s", c ? error : mps_status_text(status));
         mps_case_destroy(c);
         return false;
     }
     fmu_token(mps_case_text(c), f->token);
     if (!token || strcmp(token, f->token) != 0) {
-        fmu_tell(f, FMU_ERROR,
-                 "the token of the model description is %s, that of %s with libmps %s is %s: make "
-                 "the FMU again by 'mps fmu'",
-                 token ? token : "missing", path, mps_version(NULL, NULL, NULL), f->token);
+        fmu_log(f, FMU_ERROR,
+                "the token of the model description is %s, that of %s with libmps %s is %s: make "
+                "the FMU again by 'mps fmu'",
+                token ? token : "missing", path, mps_version(NULL, NULL, NULL), f->token);
         mps_case_destroy(c);
         return false;
     }
-    if (fmu_model_open(&f->model, c, say_log, f, error, sizeof error)) return true;
-    fmu_tell(f, FMU_ERROR, "%s", error);
+    if (fmu_model_open(&f->model, c, log_text, f, error, sizeof error)) return true;
+    fmu_log(f, FMU_ERROR, "%s", error);
     return false;
 }
 
@@ -80,14 +80,14 @@ static void begin_values(fmu *f)
     f->v = (fmu_values){.mode = FMU_INSTANTIATED};
 }
 
-fmu *fmu_create(const char *resources, const char *token, bool chatty, fmu_say_fn say, void *user)
+fmu *fmu_create(const char *resources, const char *token, bool chatty, fmu_log_fn print, void *user)
 {
     fmu *f = calloc(1, sizeof *f);
     if (!f) {
-        say(user, FMU_ERROR, "no memory");
+        print(user, FMU_ERROR, "no memory");
         return NULL;
     }
-    f->say = say;
+    f->print = print;
     f->user = user;
     f->chatty = chatty;
     mps_motion_state_init(&f->hold, sizeof f->hold);
@@ -120,14 +120,14 @@ static fmu_status expect(const fmu *f, fmu_mode mode, const char *call)
 {
     static const char *const name[] = {"instantiated", "initialising", "stepping", "terminated"};
     if (f->v.mode == (int32_t)mode) return FMU_OK;
-    return fmu_tell(f, FMU_ERROR, "%s: not allowed now: the instance is %s, it must be %s", call,
-                    name[f->v.mode], name[mode]);
+    return fmu_log(f, FMU_ERROR, "%s: not allowed now: the instance is %s, it must be %s", call,
+                   name[f->v.mode], name[mode]);
 }
 
 fmu_status fmu_initialise(fmu *f, double start)
 {
     if (expect(f, FMU_INSTANTIATED, "initialise") != FMU_OK) return FMU_ERROR;
-    if (!isfinite(start)) return fmu_tell(f, FMU_ERROR, "initialise: the start time is not finite");
+    if (!isfinite(start)) return fmu_log(f, FMU_ERROR, "initialise: the start time is not finite");
     f->v.start = f->v.time = start;
     f->v.mode = FMU_INITIALISING;
     return FMU_OK;
@@ -168,8 +168,8 @@ fmu_status fmu_reset(fmu *f)
 static fmu_status find(const fmu *f, const char *call, uint32_t reference, fmu_variable *v)
 {
     if (fmu_variable_of(&f->model, reference, v)) return FMU_OK;
-    return fmu_tell(f, FMU_ERROR, "%s: there is no variable with the value reference %u", call,
-                    (unsigned)reference);
+    return fmu_log(f, FMU_ERROR, "%s: there is no variable with the value reference %u", call,
+                   (unsigned)reference);
 }
 
 fmu_status fmu_set(fmu *f, const uint32_t *reference, size_t count, const double *value)
@@ -178,10 +178,10 @@ fmu_status fmu_set(fmu *f, const uint32_t *reference, size_t count, const double
     if (f->v.mode == FMU_TERMINATED) return expect(f, FMU_STEPPING, "set");
     for (size_t k = 0; k < count; k++) {
         if (find(f, "set", reference[k], &v) != FMU_OK) return FMU_ERROR;
-        if (!v.input) return fmu_tell(f, FMU_ERROR, "set: '%s' is no input", v.name);
+        if (!v.input) return fmu_log(f, FMU_ERROR, "set: '%s' is no input", v.name);
         if (!isfinite(value[k]))
-            return fmu_tell(f, FMU_ERROR, "set: '%s' is %g %s: must be finite", v.name, value[k],
-                            v.unit);
+            return fmu_log(f, FMU_ERROR, "set: '%s' is %g %s: must be finite", v.name, value[k],
+                           v.unit);
     }
     for (size_t k = 0; k < count; k++)
         if (fmu_variable_of(&f->model, reference[k], &v))
@@ -197,7 +197,7 @@ static fmu_status read_sensor(fmu *f, const fmu_variable *v, double *value)
     *value = 0;
     if (v->later && steps == 0) return FMU_OK;
     if (mps_job_column_read(f->model.job, f->model.sim, v->dof, value) == MPS_OK) return FMU_OK;
-    return fmu_tell(f, FMU_ERROR, "get: %s", mps_job_error(f->model.job));
+    return fmu_log(f, FMU_ERROR, "get: %s", mps_job_error(f->model.job));
 }
 
 fmu_status fmu_get(fmu *f, const uint32_t *reference, size_t count, double *value)
@@ -302,10 +302,10 @@ static fmu_status run(fmu *f, double t_end)
     }
     take_means(f, &s);
     if (s.without > 0)
-        fmu_tell(f, FMU_WARNING,
-                 "step: the added mass of %d steps is not known, that before is "
-                 "kept",
-                 (int)s.without);
+        fmu_log(f, FMU_WARNING,
+                "step: the added mass of %d steps is not known, that before is "
+                "kept",
+                (int)s.without);
     return s.without > 0 ? FMU_WARNING : FMU_OK;
 }
 
@@ -313,13 +313,13 @@ fmu_status fmu_step(fmu *f, double time, double length)
 {
     if (expect(f, FMU_STEPPING, "step") != FMU_OK) return FMU_ERROR;
     if (!isfinite(time) || !isfinite(length) || !(length > 0))
-        return fmu_tell(f, FMU_ERROR, "step: from %g s, %g s long: must be finite and > 0", time,
-                        length);
+        return fmu_log(f, FMU_ERROR, "step: from %g s, %g s long: must be finite and > 0", time,
+                       length);
     if (fabs(time - f->v.time) > fmax(1e-6 * length, rounding_of(time)))
-        return fmu_tell(f, FMU_ERROR,
-                        "step: begins at %.10g s, but the tank is at %.10g s: restore a state to "
-                        "go back",
-                        time, f->v.time);
+        return fmu_log(f, FMU_ERROR,
+                       "step: begins at %.10g s, but the tank is at %.10g s: restore a state to "
+                       "go back",
+                       time, f->v.time);
     if (mps_snapshot_take(f->before) != MPS_OK) return fmu_refused(f, FMU_ERROR, "step");
     const fmu_status status = run(f, time + length - f->v.start);
     if (status <= FMU_WARNING) f->v.time = time + length;
@@ -344,19 +344,19 @@ static double slope(const fmu *f, int32_t i, int32_t k)
 fmu_status fmu_derivative(fmu *f, const fmu_direction *d)
 {
     fmu_variable u, v;
-    if (!f->v.has_mass) return fmu_tell(f, FMU_ERROR, "derivative: is known after the first step");
+    if (!f->v.has_mass) return fmu_log(f, FMU_ERROR, "derivative: is known after the first step");
     for (size_t k = 0; k < d->knowns; k++) {
         if (find(f, "derivative", d->known[k], &v) != FMU_OK) return FMU_ERROR;
-        if (!v.input) return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no input", v.name);
+        if (!v.input) return fmu_log(f, FMU_ERROR, "derivative: '%s' is no input", v.name);
         if (!isfinite(d->seed[k]))
-            return fmu_tell(f, FMU_ERROR, "derivative: the seed of '%s' is not finite", v.name);
+            return fmu_log(f, FMU_ERROR, "derivative: the seed of '%s' is not finite", v.name);
     }
     for (size_t i = 0; i < d->unknowns; i++) {
         if (find(f, "derivative", d->unknown[i], &u) != FMU_OK) return FMU_ERROR;
         if (u.kind < FMU_LOAD)
-            return fmu_tell(f, FMU_ERROR, "derivative: '%s' is no output", u.name);
+            return fmu_log(f, FMU_ERROR, "derivative: '%s' is no output", u.name);
         if (u.kind == FMU_SENSOR)
-            return fmu_tell(f, FMU_DISCARD, "derivative: that of '%s' is not known", u.name);
+            return fmu_log(f, FMU_DISCARD, "derivative: that of '%s' is not known", u.name);
     }
     for (size_t i = 0; i < d->unknowns; i++) {
         d->out[i] = 0;

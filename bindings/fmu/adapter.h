@@ -12,7 +12,7 @@ typedef enum fmu_status { FMU_OK, FMU_WARNING, FMU_DISCARD, FMU_ERROR } fmu_stat
 typedef enum fmu_mode { FMU_INSTANTIATED, FMU_INITIALISING, FMU_STEPPING, FMU_TERMINATED } fmu_mode;
 
 /* Receives a message for the importer. */
-typedef void (*fmu_say_fn)(void *user, fmu_status status, const char *text);
+typedef void (*fmu_log_fn)(void *user, fmu_status status, const char *text);
 
 /* All numbers of an instance besides its simulation; a state and its bytes contain them. */
 typedef struct fmu_values {
@@ -31,7 +31,7 @@ struct fmu {
     mps_motion_state hold;         /* pose of the tank before the first step */
     mps_snapshot *origin, *before; /* as built; as at the beginning of a call */
     fmu_state *states;             /* all states that the importer holds */
-    fmu_say_fn say;
+    fmu_log_fn print;
     void *user;
     bool chatty; /* log messages of the library go to the importer too */
     char token[FMU_TOKEN];
@@ -41,10 +41,11 @@ struct fmu {
  * @param resources  folder
  * @param token  of the description
  * @return NULL after a message */
-fmu *fmu_create(const char *resources, const char *token, bool chatty, fmu_say_fn say, void *user);
+fmu *fmu_create(const char *resources, const char *token, bool chatty, fmu_log_fn print,
+                void *user);
 void fmu_destroy(fmu *f);
 /* Send a message. @return status */
-fmu_status fmu_tell(const fmu *f, fmu_status status, const char *format, ...);
+fmu_status fmu_log(const fmu *f, fmu_status status, const char *format, ...);
 fmu_status fmu_initialise(fmu *f, double start); /* inputs are initial values from now on */
 fmu_status fmu_begin(fmu *f);                    /* the tank is at its initial pose */
 fmu_status fmu_terminate(fmu *f);

@@ -43,7 +43,7 @@ MPS_API fmi2_flag_status_get fmi2GetBooleanStatus;
         if (!(what)) return FMU_ERROR; \
     } while (0)
 
-static void say(void *user, fmu_status status, const char *text)
+static void print(void *user, fmu_status status, const char *text)
 {
     static const char *const category[] = {"logAll", "logStatusWarning", "logStatusDiscard",
                                            "logStatusError"};
@@ -121,9 +121,9 @@ void *fmi2Instantiate(const char *name, int kind, const char *token, const char 
     if (name) memcpy(i->name, name, length);
     if (resources) path_of(resources, path, sizeof path);
     if (kind != CO_SIMULATION)
-        say(i, FMU_ERROR, "instantiate: this is an FMU for co-simulation");
+        print(i, FMU_ERROR, "instantiate: this is an FMU for co-simulation");
     else
-        i->tank = fmu_create(path, token, logging != 0, say, i);
+        i->tank = fmu_create(path, token, logging != 0, print, i);
     if (i->tank) return i;
     free_all(i);
     return NULL;
@@ -147,7 +147,7 @@ fmi2_status fmi2SetupExperiment(void *c, int tolerance_defined, double tolerance
     (void)stop_defined; /* a tank has no end */
     (void)stop;
     if (i->tank->v.mode != FMU_INSTANTIATED)
-        return fmu_tell(i->tank, FMU_ERROR, "setup: is not allowed after initialisation");
+        return fmu_log(i->tank, FMU_ERROR, "setup: is not allowed after initialisation");
     i->start = start;
     return FMU_OK;
 }
@@ -201,7 +201,7 @@ fmi2_status fmi2DoStep(void *c, double time, double length, int no_rollback)
 fmi2_status fmi2CancelStep(void *c)
 {
     NEEDS(c);
-    return fmu_tell(((instance *)c)->tank, FMU_ERROR, "cancel: no step is under way");
+    return fmu_log(((instance *)c)->tank, FMU_ERROR, "cancel: no step is under way");
 }
 
 fmi2_status fmi2GetStatus(void *c, int kind, fmi2_status *value)

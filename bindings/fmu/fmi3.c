@@ -35,7 +35,7 @@ EXPORT fmi3_step fmi3DoStep;
         if (!(what)) return FMU_ERROR; \
     } while (0)
 
-static void say(void *user, fmu_status status, const char *text)
+static void print(void *user, fmu_status status, const char *text)
 {
     static const char *const category[] = {"logAll", "logStatusWarning", "logStatusDiscard",
                                            "logStatusError"};
@@ -72,11 +72,11 @@ void *fmi3InstantiateCoSimulation(const char *name, const char *token, const cha
     if (!i) return NULL;
     *i = (instance){.environment = environment, .log = log};
     if (event_mode || intermediate_count > 0)
-        say(i, FMU_ERROR, "instantiate: there is no event mode and no intermediate variable");
+        print(i, FMU_ERROR, "instantiate: there is no event mode and no intermediate variable");
     else if (!resources)
-        say(i, FMU_ERROR, "instantiate: the path of the resources is missing");
+        print(i, FMU_ERROR, "instantiate: the path of the resources is missing");
     else
-        i->tank = fmu_create(resources, token, logging, say, i);
+        i->tank = fmu_create(resources, token, logging, print, i);
     if (i->tank) return i;
     free(i);
     return NULL;
@@ -110,7 +110,7 @@ fmi3_status fmi3ExitInitializationMode(void *c)
 fmi3_status fmi3EnterStepMode(void *c)
 {
     NEEDS(c);
-    return fmu_tell(((instance *)c)->tank, FMU_ERROR, "there is no event mode to leave");
+    return fmu_log(((instance *)c)->tank, FMU_ERROR, "there is no event mode to leave");
 }
 
 fmi3_status fmi3Terminate(void *c)
@@ -127,7 +127,7 @@ fmi3_status fmi3Reset(void *c)
 
 static fmi3_status count_wrong(fmu *f, const char *call)
 {
-    return fmu_tell(f, FMU_ERROR, "%s: the numbers of variables and values differ", call);
+    return fmu_log(f, FMU_ERROR, "%s: the numbers of variables and values differ", call);
 }
 
 fmi3_status fmi3GetFloat64(void *c, const fmi3_reference *reference, size_t references,

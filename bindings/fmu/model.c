@@ -65,7 +65,7 @@ static bool refuse_body(fmu_model *m, char *error, size_t size)
                 "");
 }
 
-bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, char *error,
+bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_print_fn print, void *user, char *error,
                     size_t size)
 {
     char why[640] = "";
@@ -76,8 +76,8 @@ bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, c
     if (!make_folder(m, error, size)) return false;
     mps_job_config_init(&config, sizeof config);
     config.folder = m->folder;
-    config.say = say;
-    config.say_user = user;
+    config.print = print;
+    config.print_user = user;
     config.error = why;
     config.error_size = sizeof why;
     const int32_t before = mps_case_message_count(c);

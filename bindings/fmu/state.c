@@ -49,7 +49,7 @@ static fmu_status check(const fmu *f, const fmu_state *state)
 {
     for (const fmu_state *s = f->states; s; s = s->next)
         if (s == state) return FMU_OK;
-    return fmu_tell(f, FMU_ERROR, "state: is not one of this instance, or was freed");
+    return fmu_log(f, FMU_ERROR, "state: is not one of this instance, or was freed");
 }
 
 fmu_status fmu_state_take(fmu *f, fmu_state **state)
@@ -58,7 +58,7 @@ fmu_status fmu_state_take(fmu *f, fmu_state **state)
     if (s && check(f, s) != FMU_OK) return FMU_ERROR;
     if (!s) {
         s = calloc(1, sizeof *s);
-        if (!s) return fmu_tell(f, FMU_ERROR, "state: no memory");
+        if (!s) return fmu_log(f, FMU_ERROR, "state: no memory");
         s->next = f->states;
         f->states = s;
     }
@@ -126,7 +126,7 @@ static fmu_status write_bytes(fmu *f, fmu_state *s)
     const bool good = read_file(s, path, &h);
     const char *why = strerror(errno);
     unlink(path);
-    return good ? FMU_OK : fmu_tell(f, FMU_ERROR, "state as bytes: %s: %s", path, why);
+    return good ? FMU_OK : fmu_log(f, FMU_ERROR, "state as bytes: %s: %s", path, why);
 }
 
 /* Restore `f->before`, the state at the beginning of a call. */
@@ -160,8 +160,8 @@ fmu_status fmu_state_write(fmu *f, fmu_state *state, void *out, size_t size)
     const fmu_status status = need_bytes(f, state);
     if (status != FMU_OK) return status;
     if (size < state->size)
-        return fmu_tell(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
-                        state->size);
+        return fmu_log(f, FMU_ERROR, "state as bytes: %zu bytes are too few for %zu", size,
+                       state->size);
     memcpy(out, state->bytes, state->size);
     return FMU_OK;
 }
@@ -218,15 +218,15 @@ fmu_status fmu_state_read(fmu *f, const unsigned char *bytes, size_t size, fmu_s
     char path[512];
     fmu_state *made = NULL;
     if (!bytes || size <= sizeof h)
-        return fmu_tell(f, FMU_ERROR, "state from bytes: they are cut short");
+        return fmu_log(f, FMU_ERROR, "state from bytes: they are cut short");
     memcpy(&h, bytes, sizeof h);
     const char *wrong = check_head(f, &h);
-    if (wrong) return fmu_tell(f, FMU_ERROR, "state from bytes: they %s", wrong);
+    if (wrong) return fmu_log(f, FMU_ERROR, "state from bytes: they %s", wrong);
     path_of(f, path, sizeof path);
     if (!write_file(path, bytes + sizeof h, size - sizeof h)) {
         const char *why = strerror(errno);
         unlink(path);
-        return fmu_tell(f, FMU_ERROR, "state from bytes: %s: %s", path, why);
+        return fmu_log(f, FMU_ERROR, "state from bytes: %s: %s", path, why);
     }
     fmu_status status = FMU_OK;
     if (mps_snapshot_take(f->before) != MPS_OK)

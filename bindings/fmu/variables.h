@@ -49,9 +49,9 @@ typedef struct fmu_model {
 } fmu_model;
 
 /* Build the simulation of a case in a new folder for temporary files. The model owns the case from
- * then on, also on failure. `say` receives log messages of the library, `error` all messages.
+ * then on, also on failure. `print` receives log messages of the library, `error` all messages.
  * @return false: failed */
-bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_say_fn say, void *user, char *error,
+bool fmu_model_open(fmu_model *m, mps_case *c, mps_job_print_fn print, void *user, char *error,
                     size_t size);
 /* Free all and remove the folder. */
 void fmu_model_close(fmu_model *m);

@@ -233,9 +233,9 @@ module mps_functions
         function mps_stl_add(sim, path, stl, built) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: path(*); type(mps_stl), &
                 intent(in), optional :: stl; real(c_double), optional :: built(*); integer(c_int32_t) :: result_; end function
-        function mps_stl_edges(sim, path, stl, angle, room, ends, count) bind(C) result(result_)
+        function mps_stl_edges(sim, path, stl, angle, capacity, ends, count) bind(C) result(result_)
             import; type(c_ptr), value :: sim; character(kind=c_char), intent(in), optional :: path(*); type(mps_stl), &
-                intent(in), optional :: stl; real(c_double), value :: angle; integer(c_int64_t), value :: room; &
+                intent(in), optional :: stl; real(c_double), value :: angle; integer(c_int64_t), value :: capacity; &
                 real(c_double), optional :: ends(*); integer(c_int64_t), optional :: count; integer(c_int32_t) :: result_; &
                 end function
         function mps_model_info_init(info, size) bind(C) result(result_)

@@ -22,14 +22,14 @@ void driver_finish(driver *d)
 static _Noreturn void leave(driver *d, int code, const char *text)
 {
     int32_t speak;
-    const int32_t all = mps_job_ranks_leave(d->ranks.end ? &d->ranks : NULL, code, &speak);
+    const int32_t all = mps_job_ranks_exit(d->ranks.end ? &d->ranks : NULL, code, &speak);
     if (speak) fputs(text, stderr);
     if (all < 0) d->ranks.abort(d->ranks.user, code);
     driver_finish(d);
     exit(all);
 }
 
-_Noreturn void driver_leave(driver *d, int code, const char *format, ...)
+_Noreturn void driver_exit(driver *d, int code, const char *format, ...)
 {
     char text[1200];
     va_list values;
@@ -48,22 +48,22 @@ _Noreturn void driver_refuse(driver *d, const char *format, ...)
     va_start(values, format);
     vsnprintf(text, sizeof text, format, values);
     va_end(values);
-    driver_leave(d, MPS_EXIT_USAGE, "%s\n%s --help lists all options", text, d->program);
+    driver_exit(d, MPS_EXIT_USAGE, "%s\n%s --help lists all options", text, d->program);
 }
 
 void driver_check(driver *d, mps_status status, const char *what)
 {
     if (status >= 0) return;
     /* the geometry is fixed: the error is an option, usually --dp */
-    driver_leave(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s: %s", what,
-                 mps_status_name(status), mps_sim_error(d->sim));
+    driver_exit(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s: %s", what,
+                mps_status_name(status), mps_sim_error(d->sim));
 }
 
 void driver_check_job(driver *d, mps_status status)
 {
     if (status >= 0) return;
-    driver_leave(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s",
-                 mps_status_name(status), mps_job_error(d->job));
+    driver_exit(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s",
+                mps_status_name(status), mps_job_error(d->job));
 }
 
 /* ---- ranks ---- */
@@ -82,7 +82,7 @@ static void check_alone(driver *d)
     const int count = started_with("OMPI_COMM_WORLD_SIZE", "PMI_SIZE");
     if (count < 2) return;
     if (started_with("OMPI_COMM_WORLD_RANK", "PMI_RANK") == 0)
-        driver_leave(
+        driver_exit(
             d, MPS_EXIT_USAGE,
             "mpirun started %d processes: --mpi makes one run of them; without it start one "
             "process",
@@ -102,12 +102,11 @@ static void begin_ranks(driver *d, int argc, char **argv)
     }
     d->threads = 1;
     if (mps_job_ranks_load(&d->ranks, error, sizeof error) != MPS_OK)
-        driver_leave(
-            d, MPS_EXIT_USAGE,
-            "--mpi: %s; it is built with the drivers where there are MPI and Zoltan "
-            "(Debian: libopenmpi-dev, libtrilinos-zoltan-dev): cmake -DMPS_WITH_MPI=ON; of "
-            "the packages of libmps --mpi needs libmps-mpi1",
-            error);
+        driver_exit(d, MPS_EXIT_USAGE,
+                    "--mpi: %s; it is built with the drivers where there are MPI and Zoltan "
+                    "(Debian: libopenmpi-dev, libtrilinos-zoltan-dev): cmake -DMPS_WITH_MPI=ON; of "
+                    "the packages of libmps --mpi needs libmps-mpi1",
+                    error);
 }
 
 /* ---- the command line ---- */
@@ -190,7 +189,7 @@ static _Noreturn void answer(driver *d, const option *asked, const option *table
     if (d->ranks.rank == 0 && strcmp(asked->name, "--version") == 0)
         printf("%s, libmps %s\n", d->program, mps_version(NULL, NULL, NULL));
     if (d->ranks.rank == 0 && strcmp(asked->name, "--list-models") == 0) {
-        if (mps_job_models_text(&text) != MPS_OK) driver_leave(d, MPS_EXIT_FAILED, "out of memory");
+        if (mps_job_models_text(&text) != MPS_OK) driver_exit(d, MPS_EXIT_FAILED, "out of memory");
         fputs(text, stdout);
     }
     free(text);

@@ -62,7 +62,7 @@ void driver_defaults(driver *d, const char *program, const char *about);
 void driver_own(driver *d, option own);
 void driver_parse(driver *d, int argc, char **argv);
 /* End with a message. */
-_Noreturn void driver_leave(driver *d, int code, const char *format, ...);
+_Noreturn void driver_exit(driver *d, int code, const char *format, ...);
 /* End with a message and MPS_EXIT_USAGE. */
 _Noreturn void driver_refuse(driver *d, const char *format, ...);
 /* Lock the folder, and create a simulation with the requested models, solver and time step. */

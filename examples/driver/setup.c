@@ -18,7 +18,7 @@ static mps_status set_model(driver *d, const char *text)
     key = strrchr(slot, '.');
     double value = equals ? strtod(equals + 1, &end) : 0;
     if (!equals || !key || end == equals + 1 || *end)
-        driver_leave(d, MPS_EXIT_USAGE, "--set %s: must be slot.key=number", text);
+        driver_exit(d, MPS_EXIT_USAGE, "--set %s: must be slot.key=number", text);
     *key++ = '\0';
     return mps_model_set(d->sim, slot, key, value);
 }
@@ -52,9 +52,9 @@ static void set_tension(driver *d)
     if (has_model(d, "tension"))
         driver_check(d, mps_model_set(d->sim, "tension", "sigma", d->sigma), "surface tension");
     else if (d->sigma_given)
-        driver_leave(d, MPS_EXIT_USAGE,
-                     "--sigma with --model %s: has no surface tension; --use tension.csf adds it",
-                     d->model);
+        driver_exit(d, MPS_EXIT_USAGE,
+                    "--sigma with --model %s: has no surface tension; --use tension.csf adds it",
+                    d->model);
 }
 
 /* Call a function for each text of an option. */
@@ -63,8 +63,7 @@ static void use_each(driver *d, const char *name, const option_list *list,
 {
     for (int i = 0; i < list->count; i++)
         if (use(d, list->text[i]) != MPS_OK)
-            driver_leave(d, MPS_EXIT_USAGE, "%s %s: %s", name, list->text[i],
-                         mps_sim_error(d->sim));
+            driver_exit(d, MPS_EXIT_USAGE, "%s %s: %s", name, list->text[i], mps_sim_error(d->sim));
 }
 
 static mps_status use_model(driver *d, const char *text)
@@ -80,11 +79,11 @@ static mps_status remove_model(driver *d, const char *text)
 static void use_models(driver *d)
 {
     if (mps_preset_use(d->sim, d->model) != MPS_OK)
-        driver_leave(d, MPS_EXIT_USAGE, "--model %s: %s", d->model, mps_sim_error(d->sim));
+        driver_exit(d, MPS_EXIT_USAGE, "--model %s: %s", d->model, mps_sim_error(d->sim));
     if (driver_has_gas(d) && !d->two_phases)
-        driver_leave(d, MPS_EXIT_USAGE,
-                     "--model %s: is for two phases, this case has one; there are imps, imps.paper",
-                     d->model);
+        driver_exit(d, MPS_EXIT_USAGE,
+                    "--model %s: is for two phases, this case has one; there are imps, imps.paper",
+                    d->model);
     suit_models(d);
     use_each(d, "--use", &d->use, use_model);
     use_each(d, "--remove", &d->remove, remove_model);
@@ -98,8 +97,8 @@ static void use_solver(driver *d)
     char solver[64];
     snprintf(solver, sizeof solver, "%.*s", slash ? (int)(slash - text) : (int)strlen(text), text);
     if (mps_solver_use(d->sim, solver, slash ? slash + 1 : NULL) != MPS_OK)
-        driver_leave(d, MPS_EXIT_USAGE, "--solver %s: %s%s", text, mps_sim_error(d->sim),
-                     slash ? "" : "; a preconditioner stands behind a /: sundials.pcg/ic0");
+        driver_exit(d, MPS_EXIT_USAGE, "--solver %s: %s%s", text, mps_sim_error(d->sim),
+                    slash ? "" : "; a preconditioner stands behind a /: sundials.pcg/ic0");
 }
 
 /* ---- opening ---- */
@@ -147,7 +146,7 @@ static bool log_average(driver *d, const char *text)
              "pressures of impacts over less than that depend on the time step: --sensor-average "
              "%.2g, or more",
              t, name, average, crossing, crossing);
-    if (d->average_given) mps_job_say(d->job, line);
+    if (d->average_given) mps_job_print(d->job, line);
     return true;
 }
 
@@ -191,7 +190,7 @@ static void open_job(driver *d)
     c.error_size = sizeof error;
     const mps_status status = mps_job_create(&c, &d->job);
     if (status != MPS_OK) /* on all ranks: rank 0 has created the folder */
-        driver_leave(d, status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE, "%s", error);
+        driver_exit(d, status == MPS_E_NOMEM ? MPS_EXIT_FAILED : MPS_EXIT_USAGE, "%s", error);
 }
 
 void driver_open(driver *d)
@@ -214,8 +213,8 @@ void driver_open(driver *d)
     config.error_size = sizeof error;
     const mps_status status = mps_sim_create(&config, &d->sim);
     if (status != MPS_OK)
-        driver_leave(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s",
-                     mps_status_name(status), error);
+        driver_exit(d, status == MPS_E_ARG ? MPS_EXIT_USAGE : MPS_EXIT_FAILED, "%s: %s",
+                    mps_status_name(status), error);
     if (d->mpi) driver_check(d, d->ranks.attach(d->ranks.user, d->sim), "--mpi");
     use_models(d);
     use_solver(d);

@@ -77,7 +77,7 @@ static void wagner(const impact *c, double t, double *sensor, double *wall)
     *wall = 0.5 * pi * w * w;
 }
 
-static void give_exact(impact *c)
+static void print_exact(impact *c)
 {
     double sensor[2], wall[2];
     if (c->tip == FLAT) {
@@ -143,7 +143,7 @@ static void build(impact *c)
     driver_wall(d, "P", middle, 0, 0, SENSOR * h);
     driver_wall(d, "P_side", middle + SIDE * h, 0, 0, SENSOR * h);
     driver_force(d, "F", "tank.y0", 1);
-    give_exact(c);
+    print_exact(c);
     add_figures(c, h);
 }
 

@@ -111,7 +111,7 @@ MPS_API mps_status mps_body_init(mps_body *body, size_t size);
  *  | MPS_E_ARG | a member of `body`; the text names it |
  *  | MPS_E_BUSY | a lease is open; called from a monitor, a verb or a callback |
  *  | MPS_E_NOMEM | no memory |
- *  | MPS_E_STATE | particles are collected (mps_particles_gather()) |
+ *  | MPS_E_STATE | particles are collected (mps_particles_collect()) |
  *
  *  | error of mps_step(), mps_run() | reason; the state is that before the step |
  *  |---|---|

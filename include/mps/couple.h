@@ -52,7 +52,7 @@ MPS_API mps_status mps_snapshot_create(mps_sim *sim, mps_snapshot **snapshot);
  *  | MPS_E_ARG | snapshot is NULL |
  *  | MPS_E_BUSY | a field is leased for writing; called from a verb or a callback |
  *  | MPS_E_NOMEM | no memory; the snapshot is empty then |
- *  | MPS_E_STATE | particles are collected (mps_particles_gather()) |
+ *  | MPS_E_STATE | particles are collected (mps_particles_collect()) |
  *  | MPS_E_RANKS | another rank failed | */
 MPS_API mps_status mps_snapshot_take(mps_snapshot *snapshot);
 

@@ -57,11 +57,11 @@ typedef struct mps_launch {
     const void *host;
     /** NULL, or a number in device memory. If it is not 0 when the loop starts, the results of the
      *  loop are not needed: a device may cancel the launch. */
-    const int64_t *unless;
+    const int64_t *cancel;
     /** NULL, or [n] mask bytes in device memory: rows whose byte is not 0 are skipped. Their terms
      *  are 0, and they raise no maximum. `run` applies the mask itself. Only loops with a view have
      *  a mask. */
-    const uint8_t *skip;
+    const uint8_t *mask;
 } mps_launch;
 
 /** A device. A function is required unless its comment allows NULL. */
@@ -78,9 +78,9 @@ typedef struct mps_device_ops {
     /** Allocate `bytes` > 0 of device memory, aligned to 256 bytes; values are undefined. The
      *  library adds offsets to the address and dereferences it on the device only.
      *  @return NULL: out of memory */
-    void *(*room)(void *self, uint64_t bytes);
-    /** Free memory of `room`. */
-    void (*give)(void *self, void *room);
+    void *(*alloc)(void *self, uint64_t bytes);
+    /** Free memory of `alloc`. */
+    void (*free)(void *self, void *block);
     /** Copy from host to device. `from` may change after the call. */
     int (*upload)(void *self, void *to, const void *from, uint64_t bytes);
     /** Copy from device to host, after all previous calls are complete. */
@@ -91,24 +91,24 @@ typedef struct mps_device_ops {
     int (*copy)(void *self, void *to, const void *from, uint64_t bytes);
     /** Run a loop. A row writes its own entries of arrays only, or adds integers to entries of
      *  other rows by atomic operations. */
-    int (*rows)(void *self, const mps_launch *launch);
+    int (*launch)(void *self, const mps_launch *launch);
     /** Synchronous reduction: run the loop and wait for its sums and maxima. Partial sums are
      *  combined by mps_exact_join(), in any order. Maxima ignore NaN. A launch that fails leaves
      *  both arrays unchanged: combine them with the results only when all results are available.
      *  @param sum  [launch->sums] in and out: terms are added
      *  @param maximum  [launch->maxima] in and out: raised */
-    int (*values)(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
+    int (*reduce)(void *self, const mps_launch *launch, mps_exact *sum, double *maximum);
     /** Asynchronous reduction: run the loop, write its sums and then its maxima to device memory,
      *  and do not wait. Sums begin at 0, maxima at -INFINITY.
      *  @param to  [launch->sums] of mps_exact, then [launch->maxima] of double */
-    int (*gather)(void *self, const mps_launch *launch, void *to);
+    int (*reduce_async)(void *self, const mps_launch *launch, void *to);
     /** Wait until all previous calls are complete. */
     int (*wait)(void *self);
     /** Reason of the last failure, one line. NULL: unknown. */
     const char *(*failure)(void *self);
     /** NULL, or for tests: the library has invalidated these values of `number` bytes each and does
      *  not read them again. The array is in device or host memory. */
-    void (*outdated)(void *self, void *array, uint64_t bytes, uint32_t number);
+    void (*invalidated)(void *self, void *array, uint64_t bytes, uint32_t number);
     /** NULL, or open the device: called by mps_sim_device_set() before all other functions.
      *  Non-zero: refused, with the text of `failure`. */
     int (*begin)(void *self);

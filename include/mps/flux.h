@@ -77,7 +77,7 @@ static inline double mps_flux_body(const mps_flux *f, int dim, int64_t i, int64_
 }
 
 /** s_ij of two wall particles: each is half a cell, weighted by its wetted fraction. */
-static inline double mps_flux_wall_share(const mps_flux *f, int64_t i, int64_t j)
+static inline double mps_flux_wall_fraction(const mps_flux *f, int64_t i, int64_t j)
 {
     const double a = f->wetted ? f->wetted[i] : 1.0, b = f->wetted ? f->wetted[j] : 1.0;
     return f->wall_factor * (a < b ? a : b);

@@ -261,12 +261,13 @@ MPS_API mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *st
 
 /** Sharp edges of the surface that mps_stl_add() would add, for drawings. Nothing is added.
  *  @param angle  least angle between the normals of two triangles at an edge, 0..pi [rad]
- *  @param room   capacity of `ends` in edges, >= 0; further edges are only counted
- *  @param ends   [6*room] out: both ends of each edge, frame of the tank [m]; NULL where room is 0
+ *  @param capacity capacity of `ends` in edges, >= 0; further edges are only counted
+ *  @param ends   [6*capacity] out: both ends of each edge, frame of the tank [m];
+ *                 NULL where capacity is 0
  *  @param count  out: number of sharp edges
  *  @return MPS_E_ARG, MPS_E_IO, MPS_E_NOMEM: as mps_stl_add() */
 MPS_API mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, double angle,
-                                 int64_t room, double *ends, int64_t *count);
+                                 int64_t capacity, double *ends, int64_t *count);
 
 MPS_END_DECLS
 

@@ -36,7 +36,7 @@ enum {
     MPS_EXIT_INTERRUPTED = 130
 };
 
-/** Kind of a text for mps_job_say_fn. */
+/** Kind of a text for mps_job_print_fn. */
 enum {
     /** A message, one or more lines. */
     MPS_JOB_MESSAGE = 0,
@@ -47,7 +47,7 @@ enum {
 };
 
 /** Receives all texts of a job. @param text  with newlines */
-typedef void (*mps_job_say_fn)(void *user, int32_t kind, const char *text);
+typedef void (*mps_job_print_fn)(void *user, int32_t kind, const char *text);
 
 /** One run on many ranks: interface of a communication module for the program and its job. All
  *  ranks make the same calls. */
@@ -92,7 +92,7 @@ MPS_API mps_status mps_job_ranks_load(mps_job_ranks *ranks, char *error, size_t 
  *  @param speak  out: 1 on the rank that must print its message
  *  @return exit code; -1: another rank does not respond: print the message, then call
  *          ranks->abort() */
-MPS_API int32_t mps_job_ranks_leave(const mps_job_ranks *ranks, int32_t code, int32_t *speak);
+MPS_API int32_t mps_job_ranks_exit(const mps_job_ranks *ranks, int32_t code, int32_t *speak);
 
 /** Configuration of a job. Initialise it with mps_job_config_init(), then change entries. Texts are
  *  copied. */
@@ -162,9 +162,9 @@ typedef struct mps_job_config {
     /** NULL: one process. It must be valid until the job is destroyed. */
     const mps_job_ranks *ranks;
     /** NULL: messages and progress go to stderr, tables to stdout. */
-    mps_job_say_fn say;
+    mps_job_print_fn print;
     /** First argument of say. */
-    void *say_user;
+    void *print_user;
     /** NULL, or buffer for the error text of mps_job_create(). */
     char *error;
     /** Size of `error` [bytes]. */
@@ -219,7 +219,7 @@ MPS_API void mps_job_log(void *job, int level, const char *text);
 
 /** Output a message of the program like those of the job, with its name as prefix; only on rank 0,
  *  and not if the job is quiet. @param text  one line without newline */
-MPS_API void mps_job_say(mps_job *job, const char *text);
+MPS_API void mps_job_print(mps_job *job, const char *text);
 
 /** Add a probe and a column of probes.csv with one of its values. Columns are in the order of these
  *  calls; each call adds its own probe.

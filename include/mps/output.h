@@ -36,7 +36,7 @@ enum {
  *
  *  On many ranks there are two modes:
  *  - Without MPS_FRAMES_PIECES rank 0 writes the same files as a run on one rank: call
- *    mps_particles_gather() before mps_frames_write(). Calls of other ranks do nothing.
+ *    mps_particles_collect() before mps_frames_write(). Calls of other ranks do nothing.
  *  - With MPS_FRAMES_PIECES all ranks make all calls of frames, in a folder on a shared file
  *    system. Rank R writes NAME_000000_R.vtp (R with four digits), rank 0 also NAME_000000.pvtp,
  *    which lists the pieces. No rank needs memory for particles of other ranks. A file that one

@@ -67,7 +67,7 @@ typedef struct mps_picture_config {
 MPS_API mps_status mps_picture_config_init(mps_picture_config *config, size_t size);
 
 /** Draw the current state of a simulation. Particles are leased during the call; on many ranks call
- *  it on rank 0 between mps_particles_gather() and mps_particles_gather_end(). Sensors are the
+ *  it on rank 0 between mps_particles_collect() and mps_particles_collect_end(). Sensors are the
  *  probes of wall pressures, pressures and gauges that have a name.
  *  @param path  of the PNG; a file of this name is replaced
  *

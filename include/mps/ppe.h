@@ -45,7 +45,7 @@ typedef struct mps_ppe_ranks {
     int (*owner)(void *host, int64_t m, const double *x, int32_t *rank);
     /** Halo exchange: set x[n..n+ghosts-1] to the values of x[0..n-1] of the owners. Non-zero:
      *  failed. */
-    int (*share)(void *host, double *x);
+    int (*halo)(void *host, double *x);
     /** Allreduce, as mps_ranks_ops.reduce. Non-zero: failed. */
     int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
     /** Collect blocks of all ranks (allgather), as mps_ranks_ops.gather. Non-zero: failed. */
@@ -115,12 +115,12 @@ typedef struct mps_ppe_problem {
 
 /** Halo exchange of x at ghost columns; does nothing if this rank has all rows.
  *  @param x  [n + ghosts] @return 0, or non-zero after a failure */
-static inline int mps_ppe_share(const mps_ppe_problem *problem, double *x)
+static inline int mps_ppe_halo(const mps_ppe_problem *problem, double *x)
 {
-    return problem->ranks ? problem->ranks->share(problem->ranks->host, x) : 0;
+    return problem->ranks ? problem->ranks->halo(problem->ranks->host, x) : 0;
 }
 
-/** Allreduce; does nothing if this rank has all rows. @return as mps_ppe_share() */
+/** Allreduce; does nothing if this rank has all rows. @return as mps_ppe_halo() */
 static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, size_t bytes,
                                  void *values, mps_combine_fn combine)
 {
@@ -130,7 +130,7 @@ static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, 
 }
 
 /** Allreduce of sums and maxima over rows in one message, at most 4 of each. In: over the rows of
- *  this rank; out: over the rows of all ranks. @return as mps_ppe_share() */
+ *  this rank; out: over the rows of all ranks. @return as mps_ppe_halo() */
 MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
 
 /** Why a solver stopped. */

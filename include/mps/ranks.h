@@ -124,14 +124,14 @@ MPS_API mps_status mps_particles_ghosts(const mps_sim *sim, const uint8_t **ghos
 
 /** Collect the particles of all ranks on rank 0 for output, in the order that they have on one
  *  rank: leases and mps_frames_write() then have all particles on rank 0, and none on other ranks.
- *  All ranks make this call and mps_particles_gather_end(); between the two the handle may only be
+ *  All ranks make this call and mps_particles_collect_end(); between the two the handle may only be
  *  read. On one rank it has no effect.
  *  @return MPS_E_BUSY (a lease is open), MPS_E_STATE (already collected), MPS_E_NOMEM,
  *          MPS_E_RANKS */
-MPS_API mps_status mps_particles_gather(mps_sim *sim);
+MPS_API mps_status mps_particles_collect(mps_sim *sim);
 
 /** Restore the particles of each rank. @return MPS_E_BUSY (a lease is open), MPS_E_STATE */
-MPS_API mps_status mps_particles_gather_end(mps_sim *sim);
+MPS_API mps_status mps_particles_collect_end(mps_sim *sim);
 
 MPS_END_DECLS
 

@@ -296,7 +296,7 @@ MPS_API void mps_stage_max(const mps_stage *s, int32_t count, const mps_sums *ra
  *  allowed in MPS_POPULATE, where pair lists are empty.
  *  @param member  [n] not 0 for member rows @param beside  [n] out: 1 or 0
  *  @return 0, or non-zero after a failure (the error is set) */
-MPS_API int mps_stage_beside(mps_stage *s, int32_t *member, int32_t *beside);
+MPS_API int mps_stage_adjacent(mps_stage *s, int32_t *member, int32_t *beside);
 
 /** Roles of rows in mps_stage_bodies(). A body is a connected component of rows. */
 enum {

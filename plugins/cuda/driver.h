@@ -37,7 +37,7 @@ enum { CUDA_JIT_ERRORS = 5, CUDA_JIT_ERRORS_SIZE = 6 };
     F(end_stream, cuStreamDestroy_v2, (cuda_handle stream))                                        \
     F(wait, cuStreamSynchronize, (cuda_handle stream))                                             \
     F(take, cuMemAlloc_v2, (cuda_address * address, size_t bytes))                                 \
-    F(give, cuMemFree_v2, (cuda_address address))                                                  \
+    F(memory_free, cuMemFree_v2, (cuda_address address))                                           \
     F(free_memory, cuMemGetInfo_v2, (size_t * free_bytes, size_t * bytes))                         \
     F(up, cuMemcpyHtoDAsync_v2,                                                                    \
       (cuda_address to, const void *from, size_t bytes, cuda_handle stream))                       \

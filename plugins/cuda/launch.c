@@ -91,8 +91,8 @@ int cuda_rows(void *self, const mps_launch *l)
 {
     cuda *c = self;
     if (cuda_enter(c)) return 1;
-    const int failed = run(c, l, (mps__launch){.n = l->n, .unless = l->unless, .skip = l->skip});
-    cuda_leave(c);
+    const int failed = run(c, l, (mps__launch){.n = l->n, .cancel = l->cancel, .mask = l->mask});
+    cuda_exit(c);
     return failed;
 }
 
@@ -139,22 +139,22 @@ static int join_all(cuda *c, const mps_launch *l, const double *terms, const res
                                   .parts = parts,
                                   .terms = terms,
                                   .out = r->sum_parts,
-                                  .unless = l->unless},
+                                  .cancel = l->cancel},
                            add_all = {.n = parts,
                                       .parts = 1,
                                       .sums = r->sum_parts,
                                       .out = r->sum,
-                                      .unless = l->unless},
+                                      .cancel = l->cancel},
                            raise = {.n = n,
                                     .parts = parts,
                                     .terms = maxima,
                                     .out = r->maximum_parts,
-                                    .unless = l->unless},
+                                    .cancel = l->cancel},
                            raise_all = {.n = parts,
                                         .parts = 1,
                                         .terms = r->maximum_parts,
                                         .out = r->maximum,
-                                        .unless = l->unless};
+                                        .cancel = l->cancel};
     if (l->sums > 0 &&
         (join(c, "mpsk_sums__add", add, l->sums) || join(c, "mpsk_sums__join", add_all, l->sums)))
         return 1;
@@ -201,8 +201,8 @@ static int values(cuda *c, const mps_launch *l, void *to, results *r)
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
                               .terms = terms,
-                              .unless = l->unless,
-                              .skip = l->skip};
+                              .cancel = l->cancel,
+                              .mask = l->mask};
     return run(c, l, head) || join_all(c, l, terms, r);
 }
 
@@ -212,16 +212,16 @@ int cuda_values(void *self, const mps_launch *l, mps_exact *sum, double *maximum
     results r = {.bytes = 0};
     if (cuda_enter(c)) return 1;
     const int failed = values(c, l, NULL, &r) || fetch(c, l, &r, sum, maximum);
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }
 
-int cuda_gather(void *self, const mps_launch *l, void *to)
+int cuda_reduce_async(void *self, const mps_launch *l, void *to)
 {
     cuda *c = self;
     results r = {.bytes = 0};
     if (cuda_enter(c)) return 1;
     const int failed = values(c, l, to, &r);
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }

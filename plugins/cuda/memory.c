@@ -15,7 +15,7 @@ int cuda_enter(cuda *c)
     return cuda_check(&c->text, c->driver, c->driver->push(c->gpu->context), "context of the GPU");
 }
 
-void cuda_leave(cuda *c)
+void cuda_exit(cuda *c)
 {
     cuda_handle before;
     c->driver->pop(&before);
@@ -34,7 +34,7 @@ int cuda_begin(void *self)
     if (!failed) {
         failed = cuda_check(&c->text, c->driver, c->driver->stream(&c->stream, CUDA_NON_BLOCKING),
                             "a stream of the GPU");
-        cuda_leave(c);
+        cuda_exit(c);
     }
     if (failed) cuda_gpu_close(c->gpu);
     if (failed) c->gpu = NULL;
@@ -46,16 +46,16 @@ void cuda_end(void *self)
     cuda *c = self;
     if (c->gpu && cuda_enter(c) == 0) {
         c->driver->wait(c->stream);
-        for (size_t k = 0; k < c->rooms; k++) c->driver->give(c->room[k].begin);
-        const cuda_room own[] = {c->terms, c->results, c->arguments};
+        for (size_t k = 0; k < c->blocks; k++) c->driver->memory_free(c->block[k].begin);
+        const cuda_block own[] = {c->terms, c->results, c->arguments};
         for (size_t k = 0; k < sizeof own / sizeof *own; k++)
-            if (own[k].begin) c->driver->give(own[k].begin);
+            if (own[k].begin) c->driver->memory_free(own[k].begin);
         c->driver->end_stream(c->stream);
-        cuda_leave(c);
+        cuda_exit(c);
     }
     if (c->gpu) cuda_gpu_close(c->gpu);
     if (c->ended) *c->ended = true;
-    free(c->room);
+    free(c->block);
     free(c);
 }
 
@@ -66,14 +66,14 @@ static bool drop_unused(cuda *c)
 {
     size_t kept = 0;
     c->driver->wait(c->stream);
-    for (size_t k = 0; k < c->rooms; k++) {
-        if (c->room[k].used)
-            c->room[kept++] = c->room[k];
+    for (size_t k = 0; k < c->blocks; k++) {
+        if (c->block[k].used)
+            c->block[kept++] = c->block[k];
         else
-            c->driver->give(c->room[k].begin);
+            c->driver->memory_free(c->block[k].begin);
     }
-    const bool any = kept < c->rooms;
-    c->rooms = kept;
+    const bool any = kept < c->blocks;
+    c->blocks = kept;
     return any;
 }
 
@@ -85,39 +85,39 @@ static int ask(cuda *c, size_t bytes, cuda_address *begin)
     return cuda_check(&c->text, d, error, "memory of the GPU");
 }
 
-int cuda_fit(cuda *c, cuda_room *room, size_t bytes)
+int cuda_fit(cuda *c, cuda_block *block, size_t bytes)
 {
-    if (bytes <= room->bytes) return 0;
-    if (room->begin) {
+    if (bytes <= block->bytes) return 0;
+    if (block->begin) {
         c->driver->wait(c->stream);
-        c->driver->give(room->begin);
+        c->driver->memory_free(block->begin);
     }
-    *room = (cuda_room){0};
-    if (ask(c, bytes + bytes / 2, &room->begin)) return 1;
-    room->bytes = bytes + bytes / 2;
+    *block = (cuda_block){0};
+    if (ask(c, bytes + bytes / 2, &block->begin)) return 1;
+    block->bytes = bytes + bytes / 2;
     return 0;
 }
 
 /* The smallest free buffer that is large enough and at most twice as large. */
-static cuda_room *free_room(cuda *c, size_t bytes)
+static cuda_block *free_block(cuda *c, size_t bytes)
 {
-    cuda_room *best = NULL;
-    for (size_t k = 0; k < c->rooms; k++) {
-        cuda_room *r = &c->room[k];
+    cuda_block *best = NULL;
+    for (size_t k = 0; k < c->blocks; k++) {
+        cuda_block *r = &c->block[k];
         if (r->used || r->bytes < bytes || r->bytes / 2 > bytes + ALIGN) continue;
         if (!best || r->bytes < best->bytes) best = r;
     }
     return best;
 }
 
-static bool more_rooms(cuda *c)
+static bool grow_blocks(cuda *c)
 {
-    if (c->rooms < c->room_capacity) return true;
-    const size_t capacity = 2 * c->room_capacity + 64;
-    cuda_room *list = realloc(c->room, capacity * sizeof *list);
+    if (c->blocks < c->block_capacity) return true;
+    const size_t capacity = 2 * c->block_capacity + 64;
+    cuda_block *list = realloc(c->block, capacity * sizeof *list);
     if (!list) return cuda_fail(&c->text, "no memory of the host") == 0;
-    c->room = list;
-    c->room_capacity = capacity;
+    c->block = list;
+    c->block_capacity = capacity;
     return true;
 }
 
@@ -125,25 +125,25 @@ void *cuda_take(void *self, uint64_t wanted)
 {
     cuda *c = self;
     const size_t bytes = (size_t)((wanted + wanted / SPARE + ALIGN - 1) / ALIGN * ALIGN);
-    cuda_room *r = free_room(c, wanted);
-    if (!r && more_rooms(c) && cuda_enter(c) == 0) {
+    cuda_block *r = free_block(c, wanted);
+    if (!r && grow_blocks(c) && cuda_enter(c) == 0) {
         cuda_address begin;
         if (ask(c, bytes, &begin) == 0) {
-            r = &c->room[c->rooms++];
-            *r = (cuda_room){.begin = begin, .bytes = bytes};
+            r = &c->block[c->blocks++];
+            *r = (cuda_block){.begin = begin, .bytes = bytes};
         }
-        cuda_leave(c);
+        cuda_exit(c);
     }
     if (!r) return NULL;
     r->used = true;
     return (void *)(uintptr_t)r->begin;
 }
 
-void cuda_give(void *self, void *room)
+void cuda_free(void *self, void *block)
 {
     cuda *c = self;
-    for (size_t k = 0; k < c->rooms; k++)
-        if (c->room[k].used && c->room[k].begin == (uintptr_t)room) c->room[k].used = false;
+    for (size_t k = 0; k < c->blocks; k++)
+        if (c->block[k].used && c->block[k].begin == (uintptr_t)block) c->block[k].used = false;
 }
 
 /* ---- copies ---- */
@@ -155,7 +155,7 @@ int cuda_upload(void *self, void *to, const void *from, uint64_t bytes)
     const int failed = cuda_check(&c->text, c->driver,
                                   c->driver->up((uintptr_t)to, from, bytes, c->stream),
                                   "copy to the GPU");
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }
 
@@ -166,7 +166,7 @@ int cuda_download(void *self, void *to, const void *from, uint64_t bytes)
     int error = c->driver->down(to, (uintptr_t)from, bytes, c->stream);
     if (!error) error = c->driver->wait(c->stream);
     const int failed = cuda_check(&c->text, c->driver, error, "copy from the GPU");
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }
 
@@ -177,7 +177,7 @@ int cuda_clear(void *self, void *to, uint64_t bytes)
     const int failed = cuda_check(&c->text, c->driver,
                                   c->driver->fill((uintptr_t)to, 0, bytes, c->stream),
                                   "clear on the GPU");
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }
 
@@ -188,7 +188,7 @@ int cuda_copy(void *self, void *to, const void *from, uint64_t bytes)
     const int failed = cuda_check(&c->text, c->driver,
                                   c->driver->copy((uintptr_t)to, (uintptr_t)from, bytes, c->stream),
                                   "copy on the GPU");
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }
 
@@ -198,6 +198,6 @@ int cuda_wait(void *self)
     if (cuda_enter(c)) return 1;
     const int failed = cuda_check(&c->text, c->driver, c->driver->wait(c->stream),
                                   "wait for the GPU");
-    cuda_leave(c);
+    cuda_exit(c);
     return failed;
 }

@@ -16,7 +16,7 @@ void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size
     return allocator->alloc(allocator->user, (size_t)count * size);
 }
 
-void mps__hypre_give(const mps_allocator *allocator, void *block)
+void mps__hypre_release(const mps_allocator *allocator, void *block)
 {
     if (block) allocator->release(allocator->user, block);
 }
@@ -39,10 +39,10 @@ void mps__amg_release(mps__amg *a)
     const mps_allocator allocator = a->allocator;
     const MPI_Comm comm = a->comm;
     drop_objects(a);
-    mps__hypre_give(&allocator, a->index);
-    mps__hypre_give(&allocator, a->length);
-    mps__hypre_give(&allocator, a->columns);
-    mps__hypre_give(&allocator, a->values);
+    mps__hypre_release(&allocator, a->index);
+    mps__hypre_release(&allocator, a->length);
+    mps__hypre_release(&allocator, a->columns);
+    mps__hypre_release(&allocator, a->values);
     *a = (mps__amg){.allocator = allocator, .comm = comm};
 }
 
@@ -76,7 +76,7 @@ static bool number_columns(mps__amg *a, const mps_ppe_problem *problem, double *
     a->n = problem->n;
     a->first = problem->ranks ? problem->ranks->first : 0;
     for (int64_t i = 0; i < problem->n; i++) work[i] = (double)(a->first + i);
-    if (mps_ppe_share(problem, work)) return false;
+    if (mps_ppe_halo(problem, work)) return false;
     for (int64_t i = 0; i < mps__hypre_columns(problem); i++) a->index[i] = (HYPRE_BigInt)work[i];
     return true;
 }

@@ -47,7 +47,7 @@ bool mps__hypre_place(MPI_Comm comm, int32_t rank, int32_t ranks);
 
 /* Allocate `count` elements (at least one), not zeroed. NULL: out of memory. */
 void *mps__hypre_take(const mps_allocator *allocator, int64_t count, size_t size);
-void mps__hypre_give(const mps_allocator *allocator, void *block);
+void mps__hypre_release(const mps_allocator *allocator, void *block);
 
 extern const mps_hypre_settings mps__hypre_defaults;
 /* Verbs of the solver (pcg.c). */

@@ -56,7 +56,7 @@ int mps__hypre_worst(const mps_ppe_problem *problem, int reason)
     return none == 0 ? (int)most : MPS_PPE_BREAKDOWN;
 }
 
-static double dot_here(const double *x, const double *y, int64_t n)
+static double dot_on_rank(const double *x, const double *y, int64_t n)
 {
     double s = 0;
     for (int64_t i = 0; i < n; i++) s += x[i] * y[i];
@@ -116,7 +116,7 @@ static double multiply(const pcg *s)
 {
     const mps_ppe_problem *problem = s->problem;
     double curvature = 0, none = 0;
-    if (mps_ppe_share(problem, s->direction)) return NAN;
+    if (mps_ppe_halo(problem, s->direction)) return NAN;
     for (int64_t i = 0; i < problem->n; i++) {
         double sum = problem->diagonal[i] * s->direction[i];
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++)
@@ -142,7 +142,7 @@ static bool negative(const pcg *s, double curvature)
 static double excess(const pcg *s, const double *r)
 {
     const mps_ppe_problem *problem = s->problem;
-    double largest = 0, squares = dot_here(r, r, problem->n);
+    double largest = 0, squares = dot_on_rank(r, r, problem->n);
     if (problem->divergence > 0)
         for (int64_t i = 0; i < problem->n; i++)
             largest = fmax(largest, fabs(r[i] * problem->weight[i]) / problem->divergence);
@@ -166,13 +166,13 @@ static bool reserve(pcg *s, const mps_ppe_problem *problem)
     const int64_t components = problem->component ? problem->components : 0,
                   columns = mps__hypre_columns(problem);
     if (components > s->sum_capacity) {
-        mps__hypre_give(allocator, s->sums);
+        mps__hypre_release(allocator, s->sums);
         s->sums = mps__hypre_take(allocator, components, sizeof *s->sums);
         s->sum_capacity = s->sums ? components : 0;
         if (!s->sums) return false;
     }
     if (s->block && columns <= s->capacity) return true;
-    mps__hypre_give(allocator, s->block);
+    mps__hypre_release(allocator, s->block);
     s->capacity = columns + columns / 8;
     s->block = mps__hypre_take(allocator, ARRAYS * s->capacity, sizeof *s->block);
     double **arrays[ARRAYS] = {&s->start, &s->residual, &s->d, &s->z, &s->direction, &s->image};
@@ -188,7 +188,7 @@ static int precondition(pcg *s, double *product)
 {
     double reason = mps__amg_apply(&s->amg, s->residual, s->z);
     center(s, s->z);
-    *product = dot_here(s->residual, s->z, s->problem->n);
+    *product = dot_on_rank(s->residual, s->z, s->problem->n);
     total(s->problem, product, &reason);
     if (reason > 0) return (int)reason;
     return !isfinite(*product) ? MPS_PPE_NAN : *product <= 0 ? MPS_PPE_INDEFINITE : 0;
@@ -289,7 +289,7 @@ static int attempt(pcg *s, double *p, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = s->problem;
     const size_t bytes = (size_t)problem->n * sizeof *p;
-    double squares = dot_here(problem->rhs, problem->rhs, problem->n), none = 0;
+    double squares = dot_on_rank(problem->rhs, problem->rhs, problem->n), none = 0;
     total(problem, &squares, &none);
     const double norm = sqrt(squares);
     if (norm == 0) memset(p, 0, bytes);
@@ -347,7 +347,7 @@ void mps__hypre_destroy(const mps_allocator *allocator, void *self)
     pcg *s = self;
     if (!s) return;
     mps__amg_release(&s->amg);
-    mps__hypre_give(allocator, s->block);
-    mps__hypre_give(allocator, s->sums);
-    mps__hypre_give(allocator, s);
+    mps__hypre_release(allocator, s->block);
+    mps__hypre_release(allocator, s->sums);
+    mps__hypre_release(allocator, s);
 }

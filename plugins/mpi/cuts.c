@@ -32,8 +32,8 @@ static void list_places(void *engine, int entries, int local_entries, ZOLTAN_ID_
     *failed = ZOLTAN_OK;
 }
 
-static void give_place(void *engine, int entries, int local_entries, ZOLTAN_ID_PTR name,
-                       ZOLTAN_ID_PTR local, double *x, int *failed)
+static void set_position(void *engine, int entries, int local_entries, ZOLTAN_ID_PTR name,
+                         ZOLTAN_ID_PTR local, double *x, int *failed)
 {
     const mps__mpi *e = engine;
     (void)entries, (void)local_entries, (void)local;
@@ -60,7 +60,7 @@ int mps__mpi_cuts_create(mps__mpi *e)
     return Zoltan_Set_Num_Obj_Fn(e->zoltan, count_places, e) != ZOLTAN_OK ||
            Zoltan_Set_Obj_List_Fn(e->zoltan, list_places, e) != ZOLTAN_OK ||
            Zoltan_Set_Num_Geom_Fn(e->zoltan, count_axes, e) != ZOLTAN_OK ||
-           Zoltan_Set_Geom_Fn(e->zoltan, give_place, e) != ZOLTAN_OK;
+           Zoltan_Set_Geom_Fn(e->zoltan, set_position, e) != ZOLTAN_OK;
 }
 
 void mps__mpi_cuts_destroy(mps__mpi *e)

@@ -11,46 +11,46 @@ enum { FAILED = 1, GOODBYE };
  * [s]. */
 static const double patience_text = 1, patience_end = 2;
 
-static void tell(mps__mpi *e, int32_t rank, int tag)
+static void notify(mps__mpi *e, int32_t rank, int tag)
 {
-    MPI_Request *request = &e->telling.request[e->telling.count];
+    MPI_Request *request = &e->notifying.request[e->notifying.count];
     const int bytes = tag == FAILED ? (int)strlen(e->own) + 1 : 0;
-    if (e->telling.count < e->telling.room &&
+    if (e->notifying.count < e->notifying.capacity &&
         MPI_Isend(e->own, bytes, MPI_CHAR, rank, tag, e->notices, request) == MPI_SUCCESS)
-        e->telling.count++;
+        e->notifying.count++;
 }
 
 int mps__mpi_listen_begin(mps__mpi *e)
 {
-    return MPI_Irecv(e->heard, MPS__MPI_TEXT, MPI_CHAR, e->rank == 0 ? MPI_ANY_SOURCE : 0,
+    return MPI_Irecv(e->received, MPS__MPI_TEXT, MPI_CHAR, e->rank == 0 ? MPI_ANY_SOURCE : 0,
                      MPI_ANY_TAG, e->notices, &e->notice) != MPI_SUCCESS;
 }
 
 /* Rank 0: adopt this text for all ranks. */
-static void settle(mps__mpi *e, const char *text)
+static void agree(mps__mpi *e, const char *text)
 {
-    if (e->settled) return;
+    if (e->agreed) return;
     snprintf(e->own, sizeof e->own, "%s", text);
     e->text = e->own;
-    e->failed = e->settled = true;
+    e->failed = e->agreed = true;
     for (int32_t k = 1; k < e->ranks; k++)
-        if (!e->gone[k]) tell(e, k, FAILED);
+        if (!e->gone[k]) notify(e, k, FAILED);
 }
 
 /* Receive a notice. */
-static void hear(mps__mpi *e, const MPI_Status *status)
+static void receive(mps__mpi *e, const MPI_Status *status)
 {
-    e->heard[MPS__MPI_TEXT - 1] = '\0';
+    e->received[MPS__MPI_TEXT - 1] = '\0';
     if (e->rank > 0) {
-        e->text = e->heard;
-        e->failed = e->settled = true;
+        e->text = e->received;
+        e->failed = e->agreed = true;
         return;
     }
     if (status->MPI_TAG == GOODBYE)
         e->gone[status->MPI_SOURCE] = 1;
     else
-        settle(e, e->heard);
-    if (mps__mpi_listen_begin(e)) settle(e, "MPI does not receive messages any more");
+        agree(e, e->received);
+    if (mps__mpi_listen_begin(e)) agree(e, "MPI does not receive messages any more");
 }
 
 bool mps__mpi_failed(mps__mpi *e)
@@ -59,7 +59,7 @@ bool mps__mpi_failed(mps__mpi *e)
     int here = 1;
     while (here && e->notice != MPI_REQUEST_NULL) {
         if (MPI_Test(&e->notice, &here, &status) != MPI_SUCCESS) break;
-        if (here) hear(e, &status);
+        if (here) receive(e, &status);
     }
     return e->failed;
 }
@@ -69,13 +69,13 @@ void mps__mpi_fail(void *engine, const char *text)
     mps__mpi *e = engine;
     if (mps__mpi_failed(e)) return;
     if (e->rank == 0) {
-        settle(e, text);
+        agree(e, text);
         return;
     }
     snprintf(e->own, sizeof e->own, "%s", text);
     e->text = e->own;
     e->failed = true;
-    tell(e, 0, FAILED);
+    notify(e, 0, FAILED);
 }
 
 const char *mps__mpi_failure(void *engine)
@@ -83,7 +83,7 @@ const char *mps__mpi_failure(void *engine)
     mps__mpi *e = engine;
     if (!mps__mpi_failed(e)) return NULL;
     const double end = mps__mpi_now() + patience_text;
-    for (int64_t turn = 0; !e->settled && mps__mpi_now() < end; turn++) {
+    for (int64_t turn = 0; !e->agreed && mps__mpi_now() < end; turn++) {
         mps__mpi_failed(e);
         mps__mpi_rest(turn);
     }
@@ -109,14 +109,14 @@ static bool all_gone(const mps__mpi *e)
 }
 
 /* Rank 0 waits until all others have left: one of them may still fail and send a notice. */
-bool mps__mpi_leave(mps__mpi *e)
+bool mps__mpi_finish(mps__mpi *e)
 {
-    if (e->rank > 0) tell(e, 0, GOODBYE);
+    if (e->rank > 0) notify(e, 0, GOODBYE);
     const double begin = mps__mpi_now();
     int sent = 0;
     for (int64_t turn = 0;; turn++) {
         const double limit = mps__mpi_failed(e) || e->rank > 0 ? patience_end : e->watchdog;
-        MPI_Testall(e->telling.count, e->telling.request, &sent, MPI_STATUSES_IGNORE);
+        MPI_Testall(e->notifying.count, e->notifying.request, &sent, MPI_STATUSES_IGNORE);
         if ((sent && all_gone(e)) || mps__mpi_now() - begin > limit) break;
         mps__mpi_rest(turn);
     }

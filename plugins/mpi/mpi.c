@@ -44,8 +44,8 @@ static mps__mpi *make(const mps_allocator *allocator, const mps__mpi_start *star
     if (!e) return NULL;
     *e = empty;
     e->gone = mps__mpi_alloc(e, (size_t)e->ranks);
-    e->telling.room = e->ranks + 1;
-    e->telling.request = mps__mpi_alloc(e, (size_t)e->telling.room * sizeof(MPI_Request));
+    e->notifying.capacity = e->ranks + 1;
+    e->notifying.request = mps__mpi_alloc(e, (size_t)e->notifying.capacity * sizeof(MPI_Request));
     if (e->gone) memset(e->gone, 0, (size_t)e->ranks);
     return e;
 }
@@ -54,7 +54,7 @@ static mps__mpi *make(const mps_allocator *allocator, const mps__mpi_start *star
 static void release(mps__mpi *e)
 {
     if (e->stuck) return;
-    void *const blocks[] = {e->gone, e->telling.request, e->exchange.request, e->other.request,
+    void *const blocks[] = {e->gone, e->notifying.request, e->exchange.request, e->other.request,
                             e->scratch};
     for (size_t k = 0; k < sizeof blocks / sizeof blocks[0]; k++) mps__mpi_release(e, blocks[k]);
     mps__mpi_release(e, e);
@@ -93,8 +93,8 @@ static int create(const mps_allocator *allocator, void **self, char *text, size_
     double seconds;
     const bool valid = read_watchdog(&seconds, text, size);
     mps__mpi *e = valid ? make(allocator, start) : NULL;
-    if (!agree(start->comm, e && e->gone && e->telling.request) || !e) {
-        if (e && e->gone && e->telling.request)
+    if (!agree(start->comm, e && e->gone && e->notifying.request) || !e) {
+        if (e && e->gone && e->notifying.request)
             snprintf(text, size, "another rank has no memory, or a wrong MPS_MPI_WATCHDOG");
         if (e) release(e);
         return 1;
@@ -117,7 +117,7 @@ static void destroy(const mps_allocator *allocator, void *self)
     MPI_Finalized(&over);
     if (!over) {
         mps__mpi_stop(e);
-        const bool quiet = mps__mpi_leave(e);
+        const bool quiet = mps__mpi_finish(e);
         mps__mpi_cuts_destroy(e);
         if (quiet && !e->failed) {
             MPI_Comm_free(&e->data);

@@ -18,7 +18,7 @@ typedef struct mps__mpi_start {
 /* Pending messages. */
 typedef struct mps__mpi_list {
     MPI_Request *request;
-    int32_t count, room;
+    int32_t count, capacity;
 } mps__mpi_list;
 
 typedef struct mps__mpi {
@@ -29,12 +29,12 @@ typedef struct mps__mpi {
     double watchdog; /* [s] */
 
     /* collective failure: rank 0 decides which text counts */
-    bool failed, settled; /* a rank failed; `said` is the text of rank 0 */
-    bool stuck;           /* messages did not complete: MPI may still use their memory */
-    char own[MPS__MPI_TEXT], heard[MPS__MPI_TEXT];
+    bool failed, agreed; /* a rank failed; `said` is the text of rank 0 */
+    bool stuck;          /* messages did not complete: MPI may still use their memory */
+    char own[MPS__MPI_TEXT], received[MPS__MPI_TEXT];
     const char *text;
     MPI_Request notice; /* receive of the next notice */
-    mps__mpi_list telling;
+    mps__mpi_list notifying;
     uint8_t *gone; /* [ranks] rank 0: ranks that have left */
 
     /* messages */
@@ -63,7 +63,7 @@ const char *mps__mpi_failure(void *engine);
 /* Fail with a code of MPI. @return 1 */
 int mps__mpi_error(mps__mpi *e, const char *call, int code);
 /* Leave the ranks. @return whether no other rank sends any more */
-bool mps__mpi_leave(mps__mpi *e);
+bool mps__mpi_finish(mps__mpi *e);
 
 /* ---- wait.c ---- */
 void *mps__mpi_alloc(mps__mpi *e, size_t size);

@@ -81,9 +81,9 @@ static int stop_all(mps__mpi *e)
 
 static MPI_Request *next_request(mps__mpi *e, mps__mpi_list *list)
 {
-    if (list->count == list->room) {
-        const int32_t room = 2 * list->room + 16;
-        MPI_Request *larger = mps__mpi_alloc(e, (size_t)room * sizeof(MPI_Request));
+    if (list->count == list->capacity) {
+        const int32_t capacity = 2 * list->capacity + 16;
+        MPI_Request *larger = mps__mpi_alloc(e, (size_t)capacity * sizeof(MPI_Request));
         if (!larger) {
             mps__mpi_fail(e, "no memory for messages between ranks");
             return NULL;
@@ -92,7 +92,7 @@ static MPI_Request *next_request(mps__mpi *e, mps__mpi_list *list)
             memcpy(larger, list->request, (size_t)list->count * sizeof(MPI_Request));
         mps__mpi_release(e, list->request);
         list->request = larger;
-        list->room = room;
+        list->capacity = capacity;
     }
     return &list->request[list->count];
 }

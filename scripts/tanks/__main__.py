@@ -49,7 +49,7 @@ def known_runs(out: Path) -> list[Run]:
 
 
 def all_events(o: argparse.Namespace) -> tuple[list[table.Row], list[tuple[str, ...]]]:
-    """The table, with the runs that are there in place of what it has of them."""
+    """The table, with the runs that are there instead of what it has of them."""
     old = table.read(o.table) if o.table.exists() else []
     runs = known_runs(o.out)
     new, failed = table.collect(o.out, runs)

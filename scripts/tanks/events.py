@@ -31,7 +31,7 @@ class Event:
     crossing: float  # dp/u at the begin [s], in the time of a tank of 1 m
     peaks: tuple[float, ...]
     impulse: float
-    panel: tuple[float, ...]  # the same of the panel: peaks, impulse; empty without one
+    panel: tuple[float, ...]  # peaks and impulse of the panel; empty without one
     resolved: float  # peak of the mean over dp/u, the default of sensors
     rises: tuple[float, ...]  # of that peak and of those of the MEANS, as triangles, in dp/u
 

@@ -37,7 +37,7 @@ class Run:
 class Case:
     """`program`: a driver with its options, or a file of cases/ that `mps` runs with values path=value.
     `spacings`: dp -> CPU minutes, coarsest first: of level coarse, standard, fine.
-    `expected`: figures that reached their limit at the coarsest dp, with some room, and must go on doing so.
+    `expected`: figures that reached their limit at the coarsest dp, with some margin, and must continue to do so.
     `cfl`: lengths of the step tried at one dp, too.
     `others`: models tried at the coarsest dp to see how far they get; of a case file model -> what else it needs.
     `paper`: made for docs/paper-cases.md alone, with frames."""

@@ -95,7 +95,7 @@ def save(path, panels):
 
 
 def palette():
-    """The colours of the drivers' pictures (src/post/picture.c), and half of them with white for what scaling makes of the edges."""
+    """The colours of the drivers' pictures (src/post/picture/picture.c), and half of them with white for what scaling makes of the edges."""
     from PIL import Image
     fluid = np.array([(18, 33, 107), (26, 102, 173), (56, 176, 168), (173, 219, 97), (252, 237, 64)])
     gas = np.array([(230, 222, 209), (235, 204, 163), (230, 168, 112), (209, 117, 69), (158, 64, 36)])

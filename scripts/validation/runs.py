@@ -102,7 +102,7 @@ class Runner:
         except (OSError, ValueError):
             same = False
         if same and (folder / "checkpoint.mps").exists() and not (folder / "run.json").exists():
-            say(f"{run.name}: goes on from its checkpoint")
+            say(f"{run.name}: continues from its checkpoint")
             return [*CHECKPOINTS[run.of_mps], "--resume"]
         if folder.exists():
             shutil.rmtree(folder)

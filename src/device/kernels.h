@@ -33,8 +33,8 @@ _Static_assert(MPS__TOGETHER == MPS__LAUNCH_GROUP, "threads of a group");
 
 /* Whether the results of a kernel are no longer needed. The address is compared as a number: for
  * pointers NVPTX would create an address of 0 first. */
-#define MPSK__LEFT_OUT(given) \
-    (mpsk__bits(&(given).unless) != 0 && *(MPSK__GLOBAL int64_t *)mpsk__bits(&(given).unless))
+#define MPSK__CANCELLED(given) \
+    (mpsk__bits(&(given).cancel) != 0 && *(MPSK__GLOBAL int64_t *)mpsk__bits(&(given).cancel))
 static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *value)
 {
     int64_t bits;
@@ -43,22 +43,22 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
 }
 
 /* Whether a loop of models skips a row: a particle of another rank. */
-#define MPSK__SKIPS(given, i) \
-    (mpsk__bits(&(given).skip) != 0 && ((MPSK__GLOBAL uint8_t *)mpsk__bits(&(given).skip))[i])
+#define MPSK__MASKED(given, i) \
+    (mpsk__bits(&(given).mask) != 0 && ((MPSK__GLOBAL uint8_t *)mpsk__bits(&(given).mask))[i])
 
 /* Both dimensions; `work` is the code of a row, with dim_ and i_. */
 #define MPSK__BOTH(name, work)                               \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_2), name, 2, work) \
     MPSK__ONE(MPSK__NAME(MPS_UNIT, name##_3), name, 3, work)
-#define MPSK__ONE(kernel, name, dimension, work)    \
-    MPSK__KERNEL(kernel, name##_given)              \
-    {                                               \
-        enum { dim_ = dimension };                  \
-        const int64_t i_ = mps__thread_row();       \
-        MPSK__GIVEN(name##_given)                   \
-        if (i_ >= given_->launch.n) return;         \
-        if (MPSK__LEFT_OUT(given_->launch)) return; \
-        work                                        \
+#define MPSK__ONE(kernel, name, dimension, work)     \
+    MPSK__KERNEL(kernel, name##_given)               \
+    {                                                \
+        enum { dim_ = dimension };                   \
+        const int64_t i_ = mps__thread_row();        \
+        MPSK__GIVEN(name##_given)                    \
+        if (i_ >= given_->launch.n) return;          \
+        if (MPSK__CANCELLED(given_->launch)) return; \
+        work                                         \
     }
 
 /* Store the values of a row in the terms. The loop bound is constant, so that the values stay in
@@ -68,14 +68,14 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
         given_->launch.terms[k_ * given_->launch.n + i_] = own_[k_];
 
 #undef MPS_ROWS
-#define MPS_ROWS(name, row, type)                                 \
-    typedef struct name##_given {                                 \
-        mps__launch launch;                                       \
-        mps_view view;                                            \
-        type fields;                                              \
-    } name##_given;                                               \
-    MPSK__BOTH(name, if (MPSK__SKIPS(given_->launch, i_)) return; \
-               row(dim_, &given_->view, &given_->fields, i_);)    \
+#define MPS_ROWS(name, row, type)                                  \
+    typedef struct name##_given {                                  \
+        mps__launch launch;                                        \
+        mps_view view;                                             \
+        type fields;                                               \
+    } name##_given;                                                \
+    MPSK__BOTH(name, if (MPSK__MASKED(given_->launch, i_)) return; \
+               row(dim_, &given_->view, &given_->fields, i_);)     \
     static const mps_rows name = {sizeof(mps_rows), sizeof(type), #name, NULL};
 
 /* MPS_SUMS() does not state how many values a row has. A loop that is not unrolled stores those
@@ -112,7 +112,7 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     } name##_given;                                                                              \
     MPSK__BOTH(name, double own_[MPS_PARALLEL_VALUES];                                           \
                for (int k_ = 0; k_ < MPS_PARALLEL_VALUES; k_++) own_[k_] = given_->launch.first; \
-               if (!MPSK__SKIPS(given_->launch, i_))                                             \
+               if (!MPSK__MASKED(given_->launch, i_))                                            \
                    row(dim_, &given_->view, &given_->fields, i_, own_);                          \
                MPSK__STORE_SOME)                                                                 \
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
@@ -139,16 +139,16 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
 
 #undef MPS__GROUP
-#define MPS__GROUP(name, whole, together, type)                                         \
-    typedef struct name##_given {                                                       \
-        mps__launch launch;                                                             \
-        type fields;                                                                    \
-    } name##_given;                                                                     \
-    MPSK__KERNEL(MPSK__NAME(MPS_UNIT, name), name##_given)                              \
-    {                                                                                   \
-        MPSK__GIVEN(name##_given)                                                       \
-        together(&given_->fields, mps__thread_lane(), !MPSK__LEFT_OUT(given_->launch)); \
-    }                                                                                   \
+#define MPS__GROUP(name, whole, together, type)                                          \
+    typedef struct name##_given {                                                        \
+        mps__launch launch;                                                              \
+        type fields;                                                                     \
+    } name##_given;                                                                      \
+    MPSK__KERNEL(MPSK__NAME(MPS_UNIT, name), name##_given)                               \
+    {                                                                                    \
+        MPSK__GIVEN(name##_given)                                                        \
+        together(&given_->fields, mps__thread_lane(), !MPSK__CANCELLED(given_->launch)); \
+    }                                                                                    \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
 /* The specialised loops of the host are for its vector units. scripts/device_rows itself finds the

@@ -20,8 +20,8 @@ typedef struct mps__launch {
     int64_t count;         /* number of values of a row: sums, then maxima */
     double first;          /* initial value of MPS_SUMS() */
     double *terms;         /* [count * n] out: value k of row i is terms[k * n + i] */
-    const int64_t *unless; /* that of the launch */
-    const uint8_t *skip;   /* that of the launch */
+    const int64_t *cancel; /* that of the launch */
+    const uint8_t *mask;   /* that of the launch */
 } mps__launch;
 
 /* Threads in a group. */
@@ -36,7 +36,7 @@ typedef struct mps__launch_join {
     const double *terms;   /* [values * n] of mpsk_sums__add, mpsk_sums__raise */
     mps_exact *sums;       /* [values * n] of mpsk_sums__join */
     void *out;             /* [values * parts] sums, or maxima */
-    const int64_t *unless; /* that of the launch */
+    const int64_t *cancel; /* that of the launch */
 } mps__launch_join;
 
 #endif

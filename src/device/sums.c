@@ -22,7 +22,7 @@ static inline __attribute__((always_inline)) place place_of(const mps__launch_jo
  * not accept barriers under a condition. */
 static inline __attribute__((always_inline)) int64_t count_of(const mps__launch_join *g)
 {
-    return MPSK__LEFT_OUT(*g) ? 0 : g->n;
+    return MPSK__CANCELLED(*g) ? 0 : g->n;
 }
 
 static inline int64_t value_of(const mps__launch_join *g)

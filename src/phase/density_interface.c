@@ -118,7 +118,7 @@ MPS_ROW void add_pairs(const int dim, const mps_view *v, const fields *f, int64_
 }
 
 /* Sums over all pairs in the window. */
-MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i, crossing *c)
+MPS_ROW void collect(const int dim, const mps_view *v, const fields *f, int64_t i, crossing *c)
 {
     static const double here[3] = {0};
     const mps_stencil *t = &v->far;
@@ -171,12 +171,12 @@ MPS_ROW double distance_of(const int dim, const mps_view *v, const fields *f, in
 {
     const double *k = v->setting, unknown = 0.5 * v->dp;
     crossing c = {.lightest = INFINITY};
-    gather(dim, v, f, i, &c);
+    collect(dim, v, f, i, &c);
     plane found = plane_of(dim, &c);
     for (int foot = 0; k[FOOT] > 0 && foot < FEET && found.aligned > 0; foot++) {
         crossing about = {.lightest = INFINITY};
         for (int d = 0; d < dim; d++) about.centre[d] = found.height * found.normal[d];
-        gather(dim, v, f, i, &about);
+        collect(dim, v, f, i, &about);
         const plane next = plane_of(dim, &about);
         if (!(next.aligned > 0)) break;
         found = next;

@@ -36,8 +36,8 @@ typedef struct block {
     double calm[PAIRS];
 } block;
 
-MPS_ROW void gather(const int dim, const mps_view *v, const fields *f, int64_t i,
-                    const int64_t pairs[2], block *b)
+MPS_ROW void collect(const int dim, const mps_view *v, const fields *f, int64_t i,
+                     const int64_t pairs[2], block *b)
 {
     const mps_stencil *t = &v->near;
     const double *all = f->velocity, *rho = f->density, *half = f->half;
@@ -73,7 +73,7 @@ MPS_ROW void damp(const int dim, const mps_view *v, const fields *f, int64_t i)
     block b;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p += PAIRS) {
         const int64_t end = p + PAIRS < mps_stencil_end(t, i) ? p + PAIRS : mps_stencil_end(t, i);
-        gather(dim, v, f, i, (const int64_t[]){p, end}, &b);
+        collect(dim, v, f, i, (const int64_t[]){p, end}, &b);
         for (int n = 0; n < b.count; n++) {
             const double r = sqrt(b.r2[n]), over = 1.0 / r, less = most_near * b.r2[n] * r;
             const double limit = r < dp ? less : most, closing = b.rate[n] < 0 ? b.rate[n] : 0.0;

@@ -98,7 +98,7 @@ MPS_ROW double wall_share(const int dim, const mps_view *v, const int32_t *regio
     return fluid > 0 ? gas / fluid * (fluid + walls) / t->n0 : 0.0;
 }
 
-double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, double phase)
+double mps__gas_fraction(const mps_view *v, const int32_t *region, int64_t i, double phase)
 {
     if (mps_is_fluid(v, i)) return mps__is_gas(v, i, phase) ? 1.0 : 0.0;
     if (mps_is_dummy(v, i) || mps_region_of(region, i) >= MPS_REGION_SPRAY) return 0.0;

@@ -99,7 +99,7 @@ MPS_ROW void compress(const int dim, const mps_view *v, const fields *f, int64_t
 {
     (void)dim;
     const double *k = v->setting, rho = mps_is_fluid(v, i) ? f->density[i] : f->own;
-    const double stiffness = mps__gas_share(v, f->rows.region, i, k[PHASE]) * f->whole / rho;
+    const double stiffness = mps__gas_fraction(v, f->rows.region, i, k[PHASE]) * f->whole / rho;
     f->gas_shift[i] += stiffness;
     f->rows.source[i] += k[PRINTED] > 0 ? 0.0 : stiffness * f->pressure[i];
 }

@@ -84,7 +84,7 @@ MPS_ROW void compress(const int dim, const mps_view *v, const fields *f, int64_t
 {
     (void)dim;
     const double *k = v->setting;
-    const double stiffness = mps__gas_share(v, f->rows.region, i, k[PHASE]) * f->whole;
+    const double stiffness = mps__gas_fraction(v, f->rows.region, i, k[PHASE]) * f->whole;
     if (stiffness == 0) return;
     f->gas_shift[i] += stiffness;
     f->gas_law[i] = k[AMBIENT];

@@ -192,13 +192,12 @@ static int find_pockets(mps_stage *s)
 
 /* ---- pressures of rows ---- */
 
-enum { GIVE_REGION, GIVE_ROW, GIVE_SLOPE, GIVE_CONDITION, GIVE_VALUE, GIVE_USES };
-static const mps_use give_uses[GIVE_USES] = {
-    [GIVE_REGION] = {"region", MPS_USE_NEIGHBOURS},
-    [GIVE_ROW] = {"pocket_pressure", MPS_USE_NEIGHBOURS},
-    [GIVE_SLOPE] = {"pocket_slope", MPS_USE_NEIGHBOURS},
-    [GIVE_CONDITION] = {"pressure_condition", MPS_USE_READ},
-    [GIVE_VALUE] = {"pressure_value", MPS_USE_CHANGE}};
+enum { SET_REGION, SET_ROW, SET_SLOPE, SET_CONDITION, SET_VALUE, SET_USES };
+static const mps_use set_uses[SET_USES] = {[SET_REGION] = {"region", MPS_USE_NEIGHBOURS},
+                                           [SET_ROW] = {"pocket_pressure", MPS_USE_NEIGHBOURS},
+                                           [SET_SLOPE] = {"pocket_slope", MPS_USE_NEIGHBOURS},
+                                           [SET_CONDITION] = {"pressure_condition", MPS_USE_READ},
+                                           [SET_VALUE] = {"pressure_value", MPS_USE_CHANGE}};
 
 typedef struct fields {
     const int32_t *region, *condition;
@@ -241,7 +240,7 @@ MPS_ROW double film_pressure(const int dim, const mps_view *v, const fields *f, 
     return least;
 }
 
-MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t i)
+MPS_ROW void set_row(const int dim, const mps_view *v, const fields *f, int64_t i)
 {
     const bool own = f->row[i * MPS__POCKET_ROW + MPS__ROW_WEIGHT] > 0;
     if (mps_is_fluid(v, i) && mps_region_of(f->region, i) == MPS_REGION_SURFACE)
@@ -250,17 +249,17 @@ MPS_ROW void give_row(const int dim, const mps_view *v, const fields *f, int64_t
         f->value[i] = mps_smaller(f->value[i] + f->row[i * MPS__POCKET_ROW],
                                   film_pressure(dim, v, f, i));
 }
-MPS_ROWS(give_rows, give_row, fields)
+MPS_ROWS(set_rows, set_row, fields)
 
-static int give_pressures(mps_stage *s)
+static int set_pressures(mps_stage *s)
 {
     if (is_idle(s)) return 0;
-    fields f = {.region = s->data[GIVE_REGION],
-                .row = s->data[GIVE_ROW],
-                .slope = s->data[GIVE_SLOPE],
-                .condition = s->data[GIVE_CONDITION],
-                .value = s->data[GIVE_VALUE]};
-    mps_stage_rows(s, &give_rows, &f);
+    fields f = {.region = s->data[SET_REGION],
+                .row = s->data[SET_ROW],
+                .slope = s->data[SET_SLOPE],
+                .condition = s->data[SET_CONDITION],
+                .value = s->data[SET_VALUE]};
+    mps_stage_rows(s, &set_rows, &f);
     return 0;
 }
 
@@ -417,10 +416,10 @@ static const mps_verb verbs[] = {
     {.hook = MPS_LIMIT, .run = limit_step},
     {.hook = MPS_PREPARE, .use_count = FIND_USES, .uses = find_uses, .run = find_pockets},
     {.hook = MPS_SOURCE,
-     .use_count = GIVE_USES,
-     .uses = give_uses,
+     .use_count = SET_USES,
+     .uses = set_uses,
      .after = "separation",
-     .run = give_pressures},
+     .run = set_pressures},
     {.hook = MPS_GRADIENT,
      .use_count = FILM_USES,
      .uses = film_uses,

@@ -27,7 +27,7 @@ int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, doub
 
 /* Gas fraction in the cell of particle i, 0..1. Cells of wall particles count if
  * mps_equation.wall_factor > 0. region: the channel of that name. */
-double mps__gas_share(const mps_view *v, const int32_t *region, int64_t i, double phase);
+double mps__gas_fraction(const mps_view *v, const int32_t *region, int64_t i, double phase);
 
 /* Arrays for mps__gas_conserve(). */
 typedef struct mps__gas_rows {

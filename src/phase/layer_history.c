@@ -296,7 +296,7 @@ MPS_ROW void hold(const int dim, const mps_view *v, const fields *f, int64_t i)
 }
 MPS_ROWS(hold_rows, hold, fields)
 
-MPS_ROW void give(const int dim, const mps_view *v, const fields *f, int64_t j)
+MPS_ROW void write(const int dim, const mps_view *v, const fields *f, int64_t j)
 {
     double du[3] = {0};
     if (!mps_is_fluid(v, j)) return;
@@ -306,7 +306,7 @@ MPS_ROW void give(const int dim, const mps_view *v, const fields *f, int64_t j)
         f->friction[j * dim + d] = du[d] / v->dt;
     }
 }
-MPS_ROWS(give_rows, give, fields)
+MPS_ROWS(write_rows, write, fields)
 
 /* Updates the layer by the flow of this step, and rotates it with the tank. */
 MPS_ROW void follow(const int dim, const mps_view *v, const fields *f, int64_t i)
@@ -342,7 +342,7 @@ static int follow_fluid(mps_stage *s)
     if (begin(s, &f)) return 1;
     mps_stage_rows(s, &hold_rows, &f);
     if (share_push(s, &f)) return 1;
-    mps_stage_rows(s, &give_rows, &f);
+    mps_stage_rows(s, &write_rows, &f);
     const mps_shared moved = {f.velocity, s->view->dim, MPS_TYPE_REAL};
     if (mps_stage_refresh(s, 1, &moved)) return 1;
     mps_stage_rows(s, &follow_rows, &f);

@@ -288,7 +288,7 @@ MPS_ROW double wall_divergence(const int dim, const mps_view *view, const fields
             if (limit == 0) limit = wall_speed(dim, view, f, i);
             if (square > limit * limit) share = limit / sqrt(square);
         }
-        if (mps_is_wall(view, q.j)) share = mps_flux_wall_share(&view->flux, i, q.j);
+        if (mps_is_wall(view, q.j)) share = mps_flux_wall_fraction(&view->flux, i, q.j);
         sum += q.w_r2 * flux * share;
     }
     return dim / t->n0 * sum;

@@ -8,7 +8,7 @@
 #include "helpers.h"
 
 /* In an acute corner the correction for one face points into the other face: iterate. */
-enum { MPS__WALL_TURNS = 4 };
+enum { MPS__WALL_ROUNDS = 4 };
 
 /* Unit normal of wall j. Returns its area; 0: no normal. */
 MPS_ROW double mps__wall_normal(const int dim, const mps_view *view, int64_t j, double n[3])
@@ -56,8 +56,8 @@ MPS_ROW bool mps__wall_rises(const int dim, const mps_view *view, const mps_pair
 /* In a concave corner a face extends to the face that rises from it. The wall particles in the
  * corner do not show this: they have one normal for all faces, or the normal of the solid that was
  * added first, or they are hidden by a plate that begins between them. */
-MPS_ROW bool mps__wall_goes_on(const int dim, const mps_view *view, int64_t i, const mps_pair *wall,
-                               const double n[3], double height)
+MPS_ROW bool mps__wall_continues(const int dim, const mps_view *view, int64_t i,
+                                 const mps_pair *wall, const double n[3], double height)
 {
     const mps_stencil *t = &view->near;
     for (int64_t p = mps_stencil_begin(t, i); p < mps_stencil_end(t, i); p++) {
@@ -76,7 +76,8 @@ MPS_ROW bool mps__wall_in_way(const int dim, const mps_view *view, double reach,
     const double height = mps__wall_height_over(dim, q, n), aside2 = q->r2 - height * height;
     const double square = view->dp * view->dp;
     if (aside2 <= 0.6 * square) return true;
-    return height > -reach && aside2 <= 2 * square && mps__wall_goes_on(dim, view, i, q, n, height);
+    return height > -reach && aside2 <= 2 * square &&
+           mps__wall_continues(dim, view, i, q, n, height);
 }
 
 /* Arguments of mps__walls_keep_off(). */
@@ -94,8 +95,8 @@ static inline double mps__wall_outward(const mps__wall_task *k, double height)
 }
 
 /* Corrects v once for each wall. Returns whether v was changed. */
-MPS_ROW bool mps__wall_turn(const int dim, const mps_view *view, const mps__wall_task *k, int64_t i,
-                            double v[3])
+MPS_ROW bool mps__wall_correct(const int dim, const mps_view *view, const mps__wall_task *k,
+                               int64_t i, double v[3])
 {
     const mps_stencil *t = &view->near;
     bool changed = false;
@@ -122,8 +123,8 @@ MPS_ROW void mps__walls_keep_off(const int dim, const mps_view *view, double rea
                                  const double *u, int64_t i, double v[3])
 {
     const mps__wall_task asked = {reach, lift, u};
-    for (int k = 0; k < MPS__WALL_TURNS; k++)
-        if (!mps__wall_turn(dim, view, &asked, i, v)) return;
+    for (int k = 0; k < MPS__WALL_ROUNDS; k++)
+        if (!mps__wall_correct(dim, view, &asked, i, v)) return;
 }
 
 #endif

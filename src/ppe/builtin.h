@@ -23,9 +23,9 @@ extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
 /* On a device sundials.pcg, with jacobi, auxgrid or no preconditioner, solves equations without
- * singular component and without law of a gas: mps__solvers_there(). Then p and the arrays of the
- * problem are device addresses, and the problem's parallel-for is that of the device; on many ranks
- * each rank has its own device. The core then also calls the functions below. */
+ * singular component and without law of a gas: mps__solvers_on_device(). Then p and the arrays of
+ * the problem are device addresses, and the problem's parallel-for is that of the device; on many
+ * ranks each rank has its own device. The core then also calls the functions below. */
 
 /* Facts about an equation on a device that let sundials.pcg wait less. */
 typedef struct mps__pcg_hint {
@@ -43,9 +43,9 @@ typedef struct mps__pcg_hint {
 /* The hint must stay valid until the next call, which may pass NULL. */
 void mps__pcg_expect(void *self, mps__pcg_hint *hint);
 /* Free device memory; call it before the device is detached. */
-void mps__pcg_leave(void *self);
-void mps__jacobi_leave(void *self);
-void mps__auxgrid_leave(void *self);
+void mps__pcg_release_device(void *self);
+void mps__jacobi_release_device(void *self);
+void mps__auxgrid_release_device(void *self);
 
 /* All built-in ones, terminated by NULL. */
 extern const mps_solver_ops *const mps__builtin_solvers[];

@@ -2,7 +2,7 @@
 /* Conjugate gradients without a host wait at each sum. A loop over one row decides: it ends the run
  * by setting a number that all launches test. Launches queued after that change neither the
  * solution nor the numbers. */
-#include "cg_room.h"
+#include "cg_workspace.h"
 
 /* Weights of the stopping criterion; NULL: no limit of the divergence. */
 MPS_ROW const double *weights_of(const mps__cg_recurrence *f)
@@ -23,7 +23,7 @@ MPS_ROW double excess(const mps__cg_recurrence *f, double squares, double larges
 MPS_ROW int64_t whether_to_stop(const mps__cg_recurrence *f, double squares, double largest)
 {
     if (excess(f, squares, largest) <= f->n->delta) return REACHED;
-    return f->n->iterations == f->most ? USED_UP : GOING;
+    return f->n->iterations == f->most ? USED_UP : RUNNING;
 }
 
 /* First stopping test of a run, from a residual that was checked. */
@@ -58,7 +58,7 @@ MPS_ROW int64_t direction(const mps__cg_recurrence *f, double rz)
     if (f->preconditioned && rz <= 0) return NEGATIVE;
     f->n->beta = rz / f->n->rz;
     f->n->rz = rz;
-    return GOING;
+    return RUNNING;
 }
 
 MPS_ROW int64_t step(const mps__cg_recurrence *f, double curvature)
@@ -68,7 +68,7 @@ MPS_ROW int64_t step(const mps__cg_recurrence *f, double curvature)
     if (!isfinite(curvature)) return BROKEN;
     if (curvature <= 0) return CURVED;
     f->n->alpha = f->n->rz / curvature;
-    return GOING;
+    return RUNNING;
 }
 
 MPS_ROW int64_t decision(const mps__cg_recurrence *f)
@@ -93,18 +93,18 @@ MPS_ROW void decide(const int dim, const mps__cg_recurrence *f, int64_t i)
     (void)dim, (void)i;
     if (f->n->stop) return;
     f->n->stop = decision(f);
-    f->n->over = f->n->stop == GOING || f->n->stop >= NOWHERE;
+    f->n->over = f->n->stop == RUNNING || f->n->stop >= NOWHERE;
 }
 MPS__LOOP_ANY(decisions, decide, mps__cg_recurrence)
 
 /* The first direction is z itself. */
-MPS_ROW void turn(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void redirect(const int dim, const mps__cg_recurrence *f, int64_t i)
 {
     (void)dim;
     if (f->n->stop) return;
     f->p[i] = f->n->iterations == 0 ? f->z[i] : f->z[i] + f->n->beta * f->p[i];
 }
-MPS__LOOP_ANY(turns, turn, mps__cg_recurrence)
+MPS__LOOP_ANY(redirections, redirect, mps__cg_recurrence)
 
 /* A step along p, and the norms of the new residual. */
 MPS_ROW void advance(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
@@ -135,17 +135,17 @@ static int queue_direction(mps__cg_solving *s)
     const mps__cg *c = s->c;
     const int reason = c->pc ? c->pc->apply(c->pc_self, c->r, c->array[0]) : 0;
     if (reason) return reason;
-    mps__vectors_gather_dot(c->problem, s->f.r, s->f.z, &s->there->got);
+    mps__vectors_dot_async(c->problem, s->f.r, s->f.z, &s->on_device->got);
     mps__cg_queue_decision(s, DIRECTION);
-    mps__loop_run_cheap(s->parallel, &turns, MPS__ANY_DIM, s->n, &s->f);
+    mps__loop_run_cheap(s->parallel, &redirections, MPS__ANY_DIM, s->n, &s->f);
     return 0;
 }
 
 static void queue_step(mps__cg_solving *s)
 {
-    mps__rows_gather(s->c->problem, s->f.p, s->c->array[2], &s->there->got);
+    mps__rows_multiply_async(s->c->problem, s->f.p, s->c->array[2], &s->on_device->got);
     mps__cg_queue_decision(s, STEP);
-    mps__cg_queue_values(s, &advances, &s->there->got);
+    mps__cg_queue_values(s, &advances, &s->on_device->got);
     mps__cg_queue_decision(s, WHETHER_TO_STOP);
 }
 

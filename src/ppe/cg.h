@@ -10,13 +10,13 @@
 
 enum { MPS__CG_AT_ONCE = 8, MPS__CG_ARRAYS = 3 };
 
-/* One solution; arrays [n] and `room` are on the device of the problem's parallel-for. */
+/* One solution; arrays [n] and `workspace` are on the device of the problem's parallel-for. */
 typedef struct mps__cg {
     const mps_ppe_problem *problem;
     const mps_preconditioner_ops *pc; /* NULL: none */
     void *pc_self;
     mps__pcg_hint *hint;
-    void *room;                    /* [mps__cg_bytes()] bytes */
+    void *workspace;               /* [mps__cg_bytes()] bytes */
     double *p;                     /* first guess and solution */
     double *start;                 /* workspace: the first guess */
     double *x, *r;                 /* correction and residual */

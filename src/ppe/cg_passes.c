@@ -2,7 +2,7 @@
 /* Passes of conjugate gradients on a device, as in krylov.c: first guess and its residual, runs,
  * corrections. Decisions are made on the device; the host waits for all of them at once, before the
  * set-up of a preconditioner and after iterations. */
-#include "cg_room.h"
+#include "cg_workspace.h"
 
 MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
 {
@@ -53,18 +53,18 @@ MPS_ROW void correct(const int dim, const mps__cg_recurrence *f, int64_t i)
 }
 MPS__LOOP_ANY(corrections, correct, mps__cg_recurrence)
 
-MPS_ROW void tell(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void report(const int dim, const mps__cg_recurrence *f, int64_t i)
 {
     (void)dim, (void)i;
     if (f->n->over) return;
     mps__cg_note_residual(f, NOW);
     f->n->over = 1;
 }
-MPS__LOOP_ANY(tellings, tell, mps__cg_recurrence)
+MPS__LOOP_ANY(reports, report, mps__cg_recurrence)
 
 size_t mps__cg_bytes(void)
 {
-    return sizeof(mps__cg_room);
+    return sizeof(mps__cg_workspace);
 }
 
 /* ---- the queue ---- */
@@ -72,22 +72,22 @@ size_t mps__cg_bytes(void)
 /* Queue the guess, its residual, and the decision whether a run begins. */
 static void queue_beginning(mps__cg_solving *s)
 {
-    mps__device_clear(s->device, s->there, sizeof *s->there);
-    mps__cg_queue_values(s, &beginnings, &s->there->begun);
+    mps__device_clear(s->device, s->on_device, sizeof *s->on_device);
+    mps__cg_queue_values(s, &beginnings, &s->on_device->begun);
     mps__cg_queue_rows(s, &guesses, s->n);
-    mps__cg_queue_values(s, &checks, &s->there->checked);
+    mps__cg_queue_values(s, &checks, &s->on_device->checked);
     mps__cg_queue_decision(s, WHETHER_TO_BEGIN);
 }
 
 /* Queue the steps after a run: its correction and the new residual. */
 static void queue_end(mps__cg_solving *s)
 {
-    s->device->unless = &s->there->numbers.over;
-    mps__cg_queue_values(s, &poisons, &s->there->poison);
+    s->device->cancel = &s->on_device->numbers.over;
+    mps__cg_queue_values(s, &poisons, &s->on_device->poison);
     mps__cg_queue_rows(s, &corrections, s->n);
-    mps__cg_queue_values(s, &checks, &s->there->checked);
-    mps__cg_queue_rows(s, &tellings, 1);
-    s->device->unless = NULL;
+    mps__cg_queue_values(s, &checks, &s->on_device->checked);
+    mps__cg_queue_rows(s, &reports, 1);
+    s->device->cancel = NULL;
 }
 
 /* Wait for the numbers, and for the value of the pressures that the caller requested. */
@@ -95,8 +95,8 @@ static mps__cg_numbers fetch(const mps__cg_solving *s)
 {
     mps__pcg_hint *hint = s->c->hint;
     mps__cg_numbers n = {.stop = BROKEN};
-    if (hint && hint->look) hint->look(hint->owner, &s->there->numbers.seen);
-    mps__device_download(s->device, &n, &s->there->numbers, sizeof n);
+    if (hint && hint->look) hint->look(hint->owner, &s->on_device->numbers.seen);
+    mps__device_download(s->device, &n, &s->on_device->numbers, sizeof n);
     if (hint) hint->seen = hint->look ? n.seen : NAN;
     if (hint) hint->refused = n.stop == REFUSED;
     if (s->device->failed) n = (mps__cg_numbers){.stop = BROKEN};
@@ -107,14 +107,14 @@ static mps__cg_numbers fetch(const mps__cg_solving *s)
  * ends it too. */
 static mps__cg_numbers run(mps__cg_solving *s, int *reason)
 {
-    mps__cg_numbers n = {.stop = GOING};
+    mps__cg_numbers n = {.stop = RUNNING};
     mps__vectors_clear(s->parallel, s->n, s->f.x);
-    for (int64_t queued = 0; n.stop == GOING && queued < s->f.most && !*reason;) {
-        s->device->unless = &s->there->numbers.stop;
+    for (int64_t queued = 0; n.stop == RUNNING && queued < s->f.most && !*reason;) {
+        s->device->cancel = &s->on_device->numbers.stop;
         for (int k = 0; k < MPS__CG_AT_ONCE && queued < s->f.most && !*reason; k++, queued++)
             *reason = mps__cg_queue_iteration(s);
-        s->device->unless = NULL;
-        if (*reason) mps__device_clear(s->device, &s->there->numbers.over, sizeof n.over);
+        s->device->cancel = NULL;
+        if (*reason) mps__device_clear(s->device, &s->on_device->numbers.over, sizeof n.over);
         queue_end(s);
         n = fetch(s);
     }
@@ -214,7 +214,7 @@ static int passes(mps__cg_solving *s, mps_ppe_result *result, bool known)
         reason = mps__progress_after(&progress, mps__result_excess(problem, result), reason);
         if (reason >= 0) return reason;
         if (result->iterations >= problem->max_iterations) return MPS_PPE_MAX_ITERATIONS;
-        mps__device_clear(s->device, &s->there->numbers.stop, sizeof n.stop);
+        mps__device_clear(s->device, &s->on_device->numbers.stop, sizeof n.stop);
         mps__cg_queue_decision(s, WHETHER_TO_GO_ON);
     }
 }
@@ -222,17 +222,17 @@ static int passes(mps__cg_solving *s, mps_ppe_result *result, bool known)
 static mps__cg_solving begin(const mps__cg *c)
 {
     const mps_ppe_problem *e = c->problem;
-    mps__cg_room *there = c->room;
+    mps__cg_workspace *on_device = c->workspace;
     return (mps__cg_solving){.c = c,
                              .device = mps__device_of(e->parallel),
                              .parallel = e->parallel,
                              .n = e->n,
-                             .there = there,
-                             .f = {.n = &there->numbers,
-                                   .begun = &there->begun,
-                                   .checked = &there->checked,
-                                   .got = &there->got,
-                                   .poison = &there->poison,
+                             .on_device = on_device,
+                             .f = {.n = &on_device->numbers,
+                                   .begun = &on_device->begun,
+                                   .checked = &on_device->checked,
+                                   .got = &on_device->got,
+                                   .poison = &on_device->poison,
                                    .doubt = c->hint ? c->hint->doubt : NULL,
                                    .row = e->row,
                                    .col = e->col,

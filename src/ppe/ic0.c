@@ -3,7 +3,7 @@
  * single precision. Most of the dropped fill is added to the diagonal, which preserves smooth
  * pressures. It runs on one thread, since each row needs the previous ones. */
 #include "builtin.h"
-#include "kernels.h"
+#include "rows.h"
 #include <math.h>
 
 enum { TRIES = 12 };
@@ -31,10 +31,10 @@ static int create(const mps_allocator *allocator, void **self)
 
 static void drop_rows(ic0 *f)
 {
-    mps__give(&f->allocator, f->row);
-    mps__give(&f->allocator, f->inverse);
-    mps__give(&f->allocator, f->work);
-    mps__give(&f->allocator, f->mark);
+    mps__release(&f->allocator, f->row);
+    mps__release(&f->allocator, f->inverse);
+    mps__release(&f->allocator, f->work);
+    mps__release(&f->allocator, f->mark);
     f->row = NULL;
     f->mark = NULL;
     f->inverse = f->work = NULL;
@@ -43,8 +43,8 @@ static void drop_rows(ic0 *f)
 
 static void drop_entries(ic0 *f)
 {
-    mps__give(&f->allocator, f->col);
-    mps__give(&f->allocator, f->upper);
+    mps__release(&f->allocator, f->col);
+    mps__release(&f->allocator, f->upper);
     f->col = NULL;
     f->upper = NULL;
     f->entry_capacity = 0;
@@ -192,7 +192,7 @@ static void destroy(const mps_allocator *allocator, void *self)
     if (!f) return;
     drop_rows(f);
     drop_entries(f);
-    mps__give(allocator, f);
+    mps__release(allocator, f);
 }
 
 const mps_preconditioner_ops mps__preconditioner_ic0 = {

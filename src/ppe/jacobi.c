@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* jacobi: the inverse of the diagonal. */
 #include "builtin.h"
-#include "kernels.h"
+#include "rows.h"
 #include "loop.h"
 #include <math.h>
 
@@ -28,13 +28,13 @@ static void settle(jacobi *j, const mps_parallel *parallel)
     mps__device *d = mps__device_of(parallel);
     const mps_allocator wanted = d ? mps__device_allocator(d) : j->allocator;
     if (wanted.alloc == j->arrays.alloc && wanted.user == j->arrays.user) return;
-    mps__give(&j->arrays, j->inverse);
+    mps__release(&j->arrays, j->inverse);
     j->inverse = NULL;
     j->capacity = 0;
     j->arrays = wanted;
 }
 
-void mps__jacobi_leave(void *self)
+void mps__jacobi_release_device(void *self)
 {
     settle(self, NULL);
 }
@@ -42,7 +42,7 @@ void mps__jacobi_leave(void *self)
 static bool reserve(jacobi *j, int64_t n)
 {
     if (n <= j->capacity) return true;
-    mps__give(&j->arrays, j->inverse);
+    mps__release(&j->arrays, j->inverse);
     j->capacity = n + n / 8;
     j->inverse = mps__take(&j->arrays, j->capacity, sizeof *j->inverse);
     if (!j->inverse) j->capacity = 0;
@@ -73,12 +73,12 @@ MPS_ROW void invert_row(const int dim, const operands *o, int64_t i, double *fou
 }
 MPS__VALUES_ANY(invert_rows, invert_row, operands, 0, VALUES)
 
-MPS_ROW void invert_there(const int dim, const operands *o, int64_t i)
+MPS_ROW void invert_device(const int dim, const operands *o, int64_t i)
 {
     (void)dim;
     o->z[i] = inverse_of(o->x[i]);
 }
-MPS__LOOP_ANY(invert_rows_there, invert_there, operands)
+MPS__LOOP_ANY(invert_rows_device, invert_device, operands)
 
 static int setup(void *self, const mps_ppe_problem *problem)
 {
@@ -91,7 +91,7 @@ static int setup(void *self, const mps_ppe_problem *problem)
     const operands rows = {.x = problem->diagonal, .z = j->inverse};
     /* the solver on a device does not begin if the diagonal fails the checks below */
     if (mps__device_of(problem->parallel) && !problem->ranks) {
-        mps__loop_run(problem->parallel, &invert_rows_there, MPS__ANY_DIM, problem->n, &rows);
+        mps__loop_run(problem->parallel, &invert_rows_device, MPS__ANY_DIM, problem->n, &rows);
         return 0;
     }
     mps__values_run(mps__team(problem->parallel, problem->n), &invert_rows, MPS__ANY_DIM,
@@ -111,8 +111,8 @@ static void destroy(const mps_allocator *allocator, void *self)
 {
     jacobi *j = self;
     if (!j) return;
-    mps__give(&j->arrays, j->inverse);
-    mps__give(allocator, j);
+    mps__release(&j->arrays, j->inverse);
+    mps__release(allocator, j);
 }
 
 const mps_preconditioner_ops mps__preconditioner_jacobi = {

@@ -10,7 +10,7 @@
  * (vector.h), so that KINSOL and its linear solver both stop at 1, and a step is not solved deeper
  * than needed. */
 #include "builtin.h"
-#include "kernels.h"
+#include "rows.h"
 #include <kinsol/kinsol.h>
 #include <math.h>
 #include <string.h>
@@ -131,7 +131,7 @@ static void drop_arrays(newton *k)
     double **all[] = {&k->start, &k->residual, &k->inner, &k->slope,
                       &k->ones,  &k->diagonal, &k->shift};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        mps__give(&k->space.allocator, *all[i]);
+        mps__release(&k->space.allocator, *all[i]);
         *all[i] = NULL;
     }
     k->space.capacity = 0;
@@ -178,7 +178,7 @@ static bool make_sums(newton *k, int64_t components)
     if (components <= k->sum_capacity) return true;
     mps__component *larger = mps__take(&k->space.allocator, components, sizeof *larger);
     if (!larger) return false;
-    mps__give(&k->space.allocator, k->sums);
+    mps__release(&k->space.allocator, k->sums);
     k->sums = larger;
     k->sum_capacity = components;
     return true;
@@ -279,9 +279,9 @@ static void destroy(const mps_allocator *allocator, void *self)
     if (k->one) N_VDestroy(k->one);
     if (k->stop) N_VDestroy(k->stop);
     drop_arrays(k);
-    mps__give(allocator, k->sums);
+    mps__release(allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
-    mps__give(allocator, k);
+    mps__release(allocator, k);
 }
 
 static int create(const mps_allocator *allocator, void **self)

@@ -2,7 +2,7 @@
 /* sundials.klu: sparse direct solution, the reference for the iterative solvers; memory and time
  * grow fast in 3-D. */
 #include "builtin.h"
-#include "kernels.h"
+#include "rows.h"
 #include "sundials_compat.h"
 #include <math.h>
 #include <nvector/nvector_serial.h>
@@ -22,7 +22,7 @@ typedef struct job {
     const mps_ppe_problem *problem;
     double *residual, *correction, *start;
     mps__component *sums;
-    int32_t *pin; /* [components] the unknown that is fixed at 0 */
+    int32_t *datum; /* [components] the unknown that is fixed at 0 */
     SUNMatrix matrix;
     N_Vector x, b;
     SUNLinearSolver solver;
@@ -35,7 +35,7 @@ static int create(const mps_allocator *allocator, void **self)
     k->allocator = *allocator;
     k->context = mps__sundials_context(*self);
     if (!k->context) {
-        mps__give(allocator, k);
+        mps__release(allocator, k);
         return MPS_PPE_NOMEM;
     }
     *self = k;
@@ -47,7 +47,7 @@ static void destroy(const mps_allocator *allocator, void *self)
     klu *k = self;
     if (!k) return;
     SUNContext_Free(&k->context);
-    mps__give(allocator, k);
+    mps__release(allocator, k);
 }
 
 static void close_job(const klu *k, job *j)
@@ -56,11 +56,11 @@ static void close_job(const klu *k, job *j)
     if (j->matrix) SUNMatDestroy(j->matrix);
     if (j->x) N_VDestroy(j->x);
     if (j->b) N_VDestroy(j->b);
-    mps__give(&k->allocator, j->residual);
-    mps__give(&k->allocator, j->correction);
-    mps__give(&k->allocator, j->start);
-    mps__give(&k->allocator, j->sums);
-    mps__give(&k->allocator, j->pin);
+    mps__release(&k->allocator, j->residual);
+    mps__release(&k->allocator, j->correction);
+    mps__release(&k->allocator, j->start);
+    mps__release(&k->allocator, j->sums);
+    mps__release(&k->allocator, j->datum);
 }
 
 static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
@@ -72,8 +72,8 @@ static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
     j->correction = mps__take(a, n, sizeof(double));
     j->start = mps__take(a, n, sizeof(double));
     j->sums = mps__take(a, problem->components, sizeof *j->sums);
-    j->pin = mps__take(a, problem->components, sizeof(int32_t));
-    if (!j->residual || !j->correction || !j->start || !j->sums || !j->pin) return false;
+    j->datum = mps__take(a, problem->components, sizeof(int32_t));
+    if (!j->residual || !j->correction || !j->start || !j->sums || !j->datum) return false;
     j->matrix = SUNSparseMatrix(n, n, (sunindextype)problem->row[n] + n, CSR_MAT, k->context);
     j->x = N_VMake_Serial(n, j->correction, k->context);
     j->b = N_VMake_Serial(n, j->residual, k->context);
@@ -81,19 +81,19 @@ static bool open_job(const klu *k, job *j, const mps_ppe_problem *problem)
 }
 
 /* Choose the first unknown of each singular component. */
-static void choose_pins(const job *j)
+static void choose_datums(const job *j)
 {
     const mps_ppe_problem *problem = j->problem;
     if (!problem->component) return;
-    for (int32_t c = 0; c < problem->components; c++) j->pin[c] = -1;
+    for (int32_t c = 0; c < problem->components; c++) j->datum[c] = -1;
     for (int64_t i = problem->n - 1; i >= 0; i--)
-        if (problem->component[i] >= 0) j->pin[problem->component[i]] = (int32_t)i;
+        if (problem->component[i] >= 0) j->datum[problem->component[i]] = (int32_t)i;
 }
 
-static bool pinned(const job *j, int64_t i)
+static bool is_datum(const job *j, int64_t i)
 {
     const int32_t *component = j->problem->component;
-    return component && component[i] >= 0 && j->pin[component[i]] == i;
+    return component && component[i] >= 0 && j->datum[component[i]] == i;
 }
 
 /* Rows and columns of fixed unknowns become those of the unit matrix (scaled): the removed equation
@@ -109,10 +109,10 @@ static void fill_matrix(const job *j)
         const double d = problem->diagonal[i];
         row[i] = at;
         col[at] = i; /* columns need not be sorted */
-        val[at++] = pinned(j, i) && !(d > 0) ? 1 : d;
-        if (pinned(j, i)) continue;
+        val[at++] = is_datum(j, i) && !(d > 0) ? 1 : d;
+        if (is_datum(j, i)) continue;
         for (int64_t k = problem->row[i]; k < problem->row[i + 1]; k++) {
-            if (pinned(j, problem->col[k])) continue;
+            if (is_datum(j, problem->col[k])) continue;
             col[at] = problem->col[k];
             val[at++] = (double)problem->val[k];
         }
@@ -130,7 +130,7 @@ static int failure(const job *j)
 static int factorise(const klu *k, job *j, mps_ppe_result *result)
 {
     double t = mps__seconds();
-    choose_pins(j);
+    choose_datums(j);
     fill_matrix(j);
     j->solver = SUNLinSol_KLU(j->x, j->matrix, k->context);
     if (!j->solver) return MPS_PPE_NOMEM;
@@ -147,7 +147,7 @@ static int refine(job *j, double *p, mps_ppe_result *result)
     const mps_ppe_problem *problem = j->problem;
     for (int k = 0; k < REFINEMENTS; k++) {
         for (int64_t i = 0; i < problem->n; i++)
-            if (pinned(j, i)) j->residual[i] = 0;
+            if (is_datum(j, i)) j->residual[i] = 0;
         if (SUNLinSolSolve(j->solver, j->matrix, j->x, j->b, 0)) return failure(j);
         for (int64_t i = 0; i < problem->n; i++) p[i] += j->correction[i];
         mps__components_center(problem, p, j->sums);

@@ -4,7 +4,7 @@
  * small in both norms. */
 #include "krylov.h"
 #include "cg.h"
-#include "kernels.h"
+#include "rows.h"
 #include <math.h>
 
 typedef struct krylov {
@@ -14,7 +14,7 @@ typedef struct krylov {
     SUNLinearSolver solver;
     N_Vector x, b, stop;
     double *start, *residual, *correction, *inner; /* [capacity] */
-    void *room;           /* workspace of the run on a device; NULL: on the host */
+    void *workspace;      /* workspace of the run on a device; NULL: on the host */
     mps__component *sums; /* [sum_capacity] */
     int64_t sum_capacity;
     /* of the solve in progress */
@@ -76,17 +76,17 @@ static void drop_arrays(krylov *k)
 {
     double **all[] = {&k->start, &k->residual, &k->correction, &k->inner};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
-        mps__give(&k->space.arrays, *all[i]);
+        mps__release(&k->space.arrays, *all[i]);
         *all[i] = NULL;
     }
-    mps__give(&k->space.arrays, k->room);
-    k->room = NULL;
+    mps__release(&k->space.arrays, k->workspace);
+    k->workspace = NULL;
     k->space.capacity = 0;
 }
 
 /* Whether a problem is solved by conjugate gradients whose sums stay on a device. On many ranks the
  * host reduces the sums. */
-static bool stays_there(const krylov *k, const mps_ppe_problem *problem)
+static bool stays_device(const krylov *k, const mps_ppe_problem *problem)
 {
     return k->kind->symmetric && mps__device_of(problem->parallel) && !problem->ranks;
 }
@@ -104,7 +104,7 @@ static bool make_arrays(krylov *k, int64_t capacity, bool stays)
     mps__vector_point(k->b, k->residual);
     if (!k->start || !k->residual || !k->correction || (!k->inner && !k->kind->symmetric))
         return false;
-    if (stays && !(k->room = mps__take(a, 1, mps__cg_bytes()))) return false;
+    if (stays && !(k->workspace = mps__take(a, 1, mps__cg_bytes()))) return false;
     return mps__space_grow(&k->space, capacity);
 }
 
@@ -115,10 +115,10 @@ static void settle(krylov *k, const mps_parallel *parallel)
     const mps_allocator wanted = d ? mps__device_allocator(d) : k->space.allocator;
     if (wanted.alloc == k->space.arrays.alloc && wanted.user == k->space.arrays.user) return;
     drop_arrays(k);
-    mps__space_leave(&k->space, &wanted);
+    mps__space_release_device(&k->space, &wanted);
 }
 
-void mps__krylov_leave(void *self)
+void mps__krylov_release_device(void *self)
 {
     settle(self, NULL);
 }
@@ -151,7 +151,7 @@ static bool make_sums(krylov *k, int64_t components)
     if (components <= k->sum_capacity) return true;
     mps__component *larger = mps__take(&k->space.allocator, components, sizeof *larger);
     if (!larger) return false;
-    mps__give(&k->space.allocator, k->sums);
+    mps__release(&k->space.allocator, k->sums);
     k->sums = larger;
     k->sum_capacity = components;
     return true;
@@ -168,7 +168,7 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     const int64_t columns = mps__columns(problem);
     k->space.problem = problem;
     return (k->start && columns <= k->space.capacity) ||
-           make_arrays(k, columns + columns / 32 + 1, stays_there(k, problem));
+           make_arrays(k, columns + columns / 32 + 1, stays_device(k, problem));
 }
 
 /* ---- solution ---- */
@@ -262,13 +262,13 @@ static int attempt(krylov *k, double *p, mps_ppe_result *result)
 }
 
 /* The whole solution on a device. */
-static int attempt_there(krylov *k, double *p, mps_ppe_result *result)
+static int attempt_device(krylov *k, double *p, mps_ppe_result *result)
 {
     mps__cg c = {.problem = k->problem,
                  .pc = k->pc,
                  .pc_self = k->pc_self,
                  .hint = k->hint,
-                 .room = k->room,
+                 .workspace = k->workspace,
                  .p = p,
                  .start = k->start,
                  .x = k->correction,
@@ -296,12 +296,12 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 {
     krylov *k = self;
     mps__result_begin(result);
-    if (!stays_there(k, problem)) mps__guess_clean(problem, p);
+    if (!stays_device(k, problem)) mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;
     k->pc_self = pc_self;
-    result->reason = k->room ? attempt_there(k, p, result) : attempt(k, p, result);
+    result->reason = k->workspace ? attempt_device(k, p, result) : attempt(k, p, result);
 }
 
 void mps__krylov_destroy(const mps_allocator *allocator, void *self)
@@ -314,7 +314,7 @@ void mps__krylov_destroy(const mps_allocator *allocator, void *self)
     if (k->b) N_VDestroy(k->b);
     if (k->stop) N_VDestroy(k->stop);
     drop_arrays(k);
-    mps__give(allocator, k->sums);
+    mps__release(allocator, k->sums);
     if (k->space.context) SUNContext_Free(&k->space.context);
-    mps__give(allocator, k);
+    mps__release(allocator, k);
 }

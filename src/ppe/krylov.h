@@ -25,7 +25,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 /* mps__pcg_expect() */
 void mps__krylov_expect(void *self, mps__pcg_hint *hint);
 /* Free device memory. */
-void mps__krylov_leave(void *self);
+void mps__krylov_release_device(void *self);
 void mps__krylov_destroy(const mps_allocator *allocator, void *self);
 
 #endif

@@ -24,9 +24,9 @@ static int create(const mps_allocator *allocator, void **self)
     return mps__krylov_create(&kind, allocator, self);
 }
 
-void mps__pcg_leave(void *self)
+void mps__pcg_release_device(void *self)
 {
-    mps__krylov_leave(self);
+    mps__krylov_release_device(self);
 }
 
 void mps__pcg_expect(void *self, mps__pcg_hint *hint)

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Operations of the vectors of mps__space; see vector.h. */
 #include "vector.h"
-#include "kernels.h"
+#include "rows.h"
 #include <math.h>
 
 typedef struct content {
@@ -52,8 +52,8 @@ static void destroy(N_Vector v)
     if (c) {
         const mps_allocator allocator = c->space->allocator;
         if (c->owned) forget(c->space, v);
-        if (c->owned) mps__give(&c->space->arrays, c->data);
-        mps__give(&allocator, c);
+        if (c->owned) mps__release(&c->space->arrays, c->data);
+        mps__release(&allocator, c);
     }
     v->content = NULL;
     N_VFreeEmpty(v);
@@ -65,7 +65,7 @@ static N_Vector new_owned(mps__space *space)
     if (!data) return NULL;
     N_Vector v = mps__vector_wrap(space, data);
     if (!v) {
-        mps__give(&space->arrays, data);
+        mps__release(&space->arrays, data);
         return NULL;
     }
     content_of(v)->owned = true;
@@ -207,7 +207,7 @@ N_Vector mps__vector_wrap(mps__space *space, double *data)
     *c = (content){.space = space, .data = data};
     N_Vector v = N_VNewEmpty(space->context);
     if (!v) {
-        mps__give(&space->allocator, c);
+        mps__release(&space->allocator, c);
         return NULL;
     }
     set_ops(v);
@@ -233,10 +233,10 @@ bool mps__space_reserve(mps__space *space, int count)
     return true;
 }
 
-void mps__space_leave(mps__space *space, const mps_allocator *arrays)
+void mps__space_release_device(mps__space *space, const mps_allocator *arrays)
 {
     for (N_Vector v = space->owned; v; v = content_of(v)->next_owned) {
-        mps__give(&space->arrays, content_of(v)->data);
+        mps__release(&space->arrays, content_of(v)->data);
         content_of(v)->data = NULL;
     }
     space->arrays = *arrays;
@@ -246,7 +246,7 @@ void mps__space_leave(mps__space *space, const mps_allocator *arrays)
 bool mps__space_grow(mps__space *space, int64_t capacity)
 {
     bool good = true;
-    mps__space_leave(space, &space->arrays);
+    mps__space_release_device(space, &space->arrays);
     for (N_Vector v = space->owned; v && good; v = content_of(v)->next_owned) {
         content_of(v)->data = mps__take(&space->arrays, capacity, sizeof(double));
         good = content_of(v)->data != NULL;

@@ -43,7 +43,7 @@ bool mps__space_grow(mps__space *space, int64_t capacity);
 /* The first `count` arrays of vectors that own theirs: workspace while no vector is used. */
 void mps__space_lend(const mps__space *space, int count, double **arrays);
 /* Free all arrays; later ones are allocated from `arrays`. */
-void mps__space_leave(mps__space *space, const mps_allocator *arrays);
+void mps__space_release_device(mps__space *space, const mps_allocator *arrays);
 void mps__space_release(mps__space *space);
 double *mps__vector_data(N_Vector v);
 void mps__vector_point(N_Vector v, double *data);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Loops over the elements of vectors. */
 #include "vectors.h"
-#include "kernels.h"
+#include "rows.h"
 #include "loop.h"
 #include <math.h>
 
@@ -138,11 +138,11 @@ static void dot_range(const operands *o, int64_t begin, int64_t end, mps_exact *
 }
 MPS__VALUES_BY(dot_rows, dot_row, dot_range, operands, 1, 0)
 
-void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
-                             mps__reduced *to)
+void mps__vectors_dot_async(const mps_ppe_problem *problem, const double *x, const double *y,
+                            mps__reduced *to)
 {
-    mps__values_gather(mps__device_of(problem->parallel), &dot_rows, MPS__ANY_DIM, problem->n,
-                       &(operands){.x = x, .y = y}, to);
+    mps__values_reduce_async(mps__device_of(problem->parallel), &dot_rows, MPS__ANY_DIM, problem->n,
+                             &(operands){.x = x, .y = y}, to);
 }
 
 double mps__vectors_dot(const mps_ppe_problem *problem, const double *x, const double *y)

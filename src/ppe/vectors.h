@@ -41,8 +41,8 @@ typedef struct mps__reduced {
     mps_exact sum;
     double largest;
 } mps__reduced;
-void mps__vectors_gather_dot(const mps_ppe_problem *problem, const double *x, const double *y,
-                             mps__reduced *to);
+void mps__vectors_dot_async(const mps_ppe_problem *problem, const double *x, const double *y,
+                            mps__reduced *to);
 /* Largest of factor x, or of |x| if the factor is 0; not below `least`. NaNs do not count. */
 double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, double factor,
                             double least);

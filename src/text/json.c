@@ -86,7 +86,7 @@ static size_t take_escape(reader *r, char *out)
 }
 
 /* Bytes up to the closing quote; an escape is never shorter than its character. */
-static size_t text_room(const char *at)
+static size_t text_capacity(const char *at)
 {
     const char *end = at;
     while (*end && *end != '"') end += *end == '\\' && end[1] ? 2 : 1;
@@ -96,7 +96,7 @@ static size_t text_room(const char *at)
 static bool take_text(reader *r, char **out)
 {
     if (!take(r, '"')) return fail(r, "a text in quotes is wanted");
-    char *text = malloc(text_room(r->at));
+    char *text = malloc(text_capacity(r->at));
     size_t n = 0;
     *out = text;
     if (!text) return fail(r, NULL);

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never
- * change within a major version. */
+/* Layout of the public structs on x86-64, written by make_layout. Sizes may grow, offsets never change within a major version. */
 #include <mps/body.h>
 #include <mps/case.h>
 #include <mps/couple.h>
@@ -73,13 +72,13 @@ AT(mps_load, acceleration, 392); AT(mps_load, dt, 440); AT(mps_load, iterations,
 SIZE(mps_launch, 96);
 AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8); AT(mps_launch, file, 16); AT(mps_launch, name, 24);
 AT(mps_launch, view, 32); AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56); AT(mps_launch, maxima, 60);
-AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, unless, 80); AT(mps_launch, skip, 88);
+AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, cancel, 80); AT(mps_launch, mask, 88);
 
 SIZE(mps_device_ops, 136);
 AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8); AT(mps_device_ops, self, 16);
-AT(mps_device_ops, room, 24); AT(mps_device_ops, give, 32); AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48);
-AT(mps_device_ops, clear, 56); AT(mps_device_ops, copy, 64); AT(mps_device_ops, rows, 72); AT(mps_device_ops, values, 80);
-AT(mps_device_ops, gather, 88); AT(mps_device_ops, wait, 96); AT(mps_device_ops, failure, 104); AT(mps_device_ops, outdated, 112);
+AT(mps_device_ops, alloc, 24); AT(mps_device_ops, free, 32); AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48);
+AT(mps_device_ops, clear, 56); AT(mps_device_ops, copy, 64); AT(mps_device_ops, launch, 72); AT(mps_device_ops, reduce, 80);
+AT(mps_device_ops, reduce_async, 88); AT(mps_device_ops, wait, 96); AT(mps_device_ops, failure, 104); AT(mps_device_ops, invalidated, 112);
 AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128);
 
 SIZE(mps_device_info, 72);
@@ -123,7 +122,7 @@ AT(mps_job_config, average, 88); AT(mps_job_config, frames, 96); AT(mps_job_conf
 AT(mps_job_config, overwrite, 112); AT(mps_job_config, pieces, 116); AT(mps_job_config, tank_frame, 120); AT(mps_job_config, report, 124);
 AT(mps_job_config, profile, 128); AT(mps_job_config, quiet, 132); AT(mps_job_config, signals, 136); AT(mps_job_config, trace, 140);
 AT(mps_job_config, film, 144); AT(mps_job_config, threads, 148); AT(mps_job_config, page_bytes, 152); AT(mps_job_config, ranks, 160);
-AT(mps_job_config, say, 168); AT(mps_job_config, say_user, 176); AT(mps_job_config, error, 184); AT(mps_job_config, error_size, 192);
+AT(mps_job_config, print, 168); AT(mps_job_config, print_user, 176); AT(mps_job_config, error, 184); AT(mps_job_config, error_size, 192);
 AT(mps_job_config, dp, 200); AT(mps_job_config, device, 208); AT(mps_job_config, peaks, 216); AT(mps_job_config, reserved, 220);
 AT(mps_job_config, checkpoint_clock, 224);
 
@@ -284,7 +283,7 @@ AT(mps_plugin_item, drive, 24);
 SIZE(mps_ppe_ranks, 112);
 AT(mps_ppe_ranks, struct_size, 0); AT(mps_ppe_ranks, rank, 4); AT(mps_ppe_ranks, ranks, 8); AT(mps_ppe_ranks, reserved, 12);
 AT(mps_ppe_ranks, ghosts, 16); AT(mps_ppe_ranks, rows, 24); AT(mps_ppe_ranks, first, 32); AT(mps_ppe_ranks, order, 40);
-AT(mps_ppe_ranks, owner, 48); AT(mps_ppe_ranks, share, 56); AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, gather, 72);
+AT(mps_ppe_ranks, owner, 48); AT(mps_ppe_ranks, halo, 56); AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, gather, 72);
 AT(mps_ppe_ranks, connect, 80); AT(mps_ppe_ranks, disconnect, 88); AT(mps_ppe_ranks, exchange, 96); AT(mps_ppe_ranks, host, 104);
 
 SIZE(mps_ppe_problem, 152);

@@ -36,7 +36,7 @@ static inline mps_job_config config_of(const char *folder)
     c.row_interval = 0.002;
     c.frames = 0;
     c.report = 0;
-    c.say = listen;
+    c.print = listen;
     said[0] = '\0';
     return c;
 }

@@ -40,7 +40,7 @@ static void without_a_job(void **state)
     assert_int_equal(mps_job_run(NULL, sim), MPS_EXIT_USAGE);
     assert_string_equal(mps_job_error(NULL), "");
     mps_job_stop(NULL);
-    mps_job_say(NULL, "a");
+    mps_job_print(NULL, "a");
     mps_job_log(NULL, MPS_LOG_WARNING, "a");
     assert_int_equal(mps_measure_init(NULL, sizeof m), MPS_E_ARG);
     assert_int_equal(mps_measure_init(&m, 1), MPS_E_ARG);
@@ -178,9 +178,9 @@ static void messages(void **state)
     mps_job_config c = config_of("messages");
     mps_job *job = job_of(&c);
     (void)state;
-    mps_job_say(job, "begins");
+    mps_job_print(job, "begins");
     ASSERT_SAID("test: begins\n");
-    mps_job_say(job, NULL);
+    mps_job_print(job, NULL);
     mps_job_log(job, MPS_LOG_WARNING, NULL);
     mps_job_log(job, MPS_LOG_WARNING, "thin");
     ASSERT_SAID("test: warning: thin\n");
@@ -193,7 +193,7 @@ static void messages(void **state)
     c.folder = "quiet";
     job = job_of(&c);
     said[0] = '\0';
-    mps_job_say(job, "begins");
+    mps_job_print(job, "begins");
     mps_job_log(job, MPS_LOG_WARNING, "thin");
     assert_string_equal(said, "");
     mps_job_destroy(job);

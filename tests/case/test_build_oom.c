@@ -70,7 +70,7 @@ static mps_status try_job(mps_case *c, const char *folder)
     mps_job_config config;
     mps_job_config_init(&config, sizeof config);
     config.folder = folder;
-    config.say = quiet;
+    config.print = quiet;
     armed = true;
     const mps_status status = mps_case_job(c, &config, &job, &sim);
     armed = false;

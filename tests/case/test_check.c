@@ -242,7 +242,7 @@ static void shallow(void **state)
           NULL, "spacings deep");
 }
 
-/* How often there are frames, and what a static pressure below gas is off by: half a spacing of 20 mm. */
+/* The period of frames, and the error of a static pressure below gas: half a spacing of 20 mm. */
 static void frames_and_gas(void **state)
 {
     static const char text[] =
@@ -254,7 +254,8 @@ static void frames_and_gas(void **state)
     tells(text, "static pressures in the liquid are 98 Pa too high: with gas above it", NULL);
 }
 
-/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of a fall through it. */
+/* Steps of the calm limit, 0.06 sqrt(dp/g); 0.3 dp over twice the speed of the tank and that of
+ * a fall through it. */
 static void costs(void **state)
 {
     (void)state;

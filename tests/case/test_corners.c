@@ -92,7 +92,7 @@ static void no_tables(void **state)
 
 /* ---- output of a check */
 
-static char *told(const char *case_text)
+static char *logged(const char *case_text)
 {
     mps_case *c = NULL;
     char *text = NULL, *sketch = NULL;
@@ -106,7 +106,7 @@ static char *told(const char *case_text)
 
 static void tells(const char *case_text, const char *wanted)
 {
-    char *text = told(case_text);
+    char *text = logged(case_text);
     if (!strstr(text, wanted)) fail_msg("wanted: %s\n%s", wanted, text);
     free(text);
 }
@@ -122,7 +122,7 @@ static void solids_in_the_surface(void **state)
         "m]}\n  deep: {plate: [0.1 0 m, 0.1 0.1 m]}\n" END,
         "surface   solid 'block' stands in it, x = 0.3 .. 0.5 m\n          solid 'right' stands in "
         "it, x = 0.8 m\n");
-    char *text = told(
+    char *text = logged(
         "mps: 1\ndim: 3\ndp: 0.1 m\ntank: {size: 2 1 1 m}\nfill: [{water: {depth: 0.5 "
         "m}}]\nsolids:\n  post: {box: [1 0 0.3 m, 1.2 0.8 0.6 m]}\n" END);
     assert_non_null(strstr(text, "not from side to side"));
@@ -216,7 +216,7 @@ static void frozen_liquid(void **state)
                  TOP "tank: {%s}\n" WATER "body: {centre: 0.5 0 m, forward: z, mass: 100 kg, "
                      "inertia: 20 kg m2, roll: {stiffness: 4 kN m/rad}}\n" END,
                  tank[k]);
-        char *all = told(text);
+        char *all = logged(text);
         const char *found = strstr(all, "with the liquid frozen ");
         if (!found || sscanf(found, "with the liquid frozen %lf s", &period[k]) != 1)
             fail_msg("%s", all);

@@ -25,7 +25,7 @@ static void drop(void **state)
     (void)state;
     assert_int_equal(mps_job_config_init(&config, sizeof config), MPS_OK);
     config.folder = "drop";
-    config.say = listen;
+    config.print = listen;
     config.report = 0;
     assert_int_equal(mps_case_read_text(DROP, sizeof DROP - 1, "drop.yaml", 0, NULL, &c), MPS_OK);
     if (mps_case_job(c, &config, &job, &sim) != MPS_OK) {

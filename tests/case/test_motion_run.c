@@ -361,7 +361,7 @@ static void columns(void **state)
         mps_job_config_init(&config, sizeof config);
         config.folder = "motion_columns";
         config.overwrite = 1;
-        config.say = quiet;
+        config.print = quiet;
         config.error = error;
         config.error_size = sizeof error;
         assert_int_equal(kit_read(all[i].text, NULL, &c), MPS_OK);

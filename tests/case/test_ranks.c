@@ -83,13 +83,13 @@ static void run_rank(void *argument, int32_t rank)
     mps_sim *sim = NULL;
     mps_job_config config;
     if (s->leaves >= 0) {
-        s->code = mps_job_ranks_leave(&s->ranks, s->leaves, &s->speaks);
+        s->code = mps_job_ranks_exit(&s->ranks, s->leaves, &s->speaks);
         return;
     }
     mps_job_config_init(&config, sizeof config);
     config.folder = all->folder;
-    config.say = hear;
-    config.say_user = s;
+    config.print = hear;
+    config.print_user = s;
     config.resume = all->resume;
     config.ranks = &s->ranks;
     s->made = mps_case_read_text(TANK, sizeof TANK - 1, "ranks.yaml", all->set_count, all->sets,
@@ -200,7 +200,7 @@ static void one_is_refused(void **state)
 static void leave_rank(void *argument, int32_t rank)
 {
     seat *s = &((scene *)argument)->seat[rank];
-    s->code = mps_job_ranks_leave(&s->ranks, rank, &s->speaks);
+    s->code = mps_job_ranks_exit(&s->ranks, rank, &s->speaks);
 }
 
 /* The others do not answer. */
@@ -217,10 +217,10 @@ static void leaving(void **state)
         .struct_size = sizeof silent, .rank = 1, .count = 2, .largest = nothing};
     int32_t speaks = 0;
     (void)state;
-    assert_int_equal(mps_job_ranks_leave(NULL, 3, &speaks), 3);
+    assert_int_equal(mps_job_ranks_exit(NULL, 3, &speaks), 3);
     assert_int_equal(speaks, 1);
     speaks = 0;
-    assert_int_equal(mps_job_ranks_leave(&silent, 3, &speaks), -1);
+    assert_int_equal(mps_job_ranks_exit(&silent, 3, &speaks), -1);
     assert_int_equal(speaks, 1);
     kit_engine_team *team = kit_engine_create(RANKS, 0);
     for (int32_t r = 0; r < RANKS; r++) {

@@ -10,7 +10,7 @@
 #define END   "run: {until: 8 ms, dt: 4 ms, threads: 1}\n"
 
 /* Output of a check, with its messages; the caller frees it. */
-static char *told(const char *case_text)
+static char *logged(const char *case_text)
 {
     mps_case *c = NULL;
     char *text = NULL, *sketch = NULL;
@@ -29,7 +29,7 @@ static char *told(const char *case_text)
 
 static void tells(const char *case_text, int count, const char *const *words)
 {
-    char *text = told(case_text);
+    char *text = logged(case_text);
     for (int k = 0; k < count; k++)
         if (!strstr(text, words[k])) fail_msg("wanted: %s\n%s", words[k], text);
     free(text);
@@ -81,7 +81,7 @@ static void many_columns(void **state)
           "P_1: wall pressure at (0, 0.2006) m", "\n          .. and 253 more cells, to\n",
           "P_255: wall pressure at (0, 0.4994) m", "P: Wall pressure: mean of the cells",
           "a: wall pressure at (0, 0.1) m");
-    char *panel = told(TANK WATER "sensors:\n  P: {panel: [0 0.2 m, 0 0.5 m], cells: 16}\n" END);
+    char *panel = logged(TANK WATER "sensors:\n  P: {panel: [0 0.2 m, 0 0.5 m], cells: 16}\n" END);
     assert_non_null(strstr(panel, "P_9: wall pressure"));
     assert_null(strstr(panel, "more"));
     free(panel);
@@ -137,7 +137,7 @@ static void quiet_run(const char *text)
     assert_int_equal(mps_job_config_init(&config, sizeof config), MPS_OK);
     config.folder = "seldom";
     config.overwrite = 1;
-    config.say = listen;
+    config.print = listen;
     config.error = error;
     config.error_size = sizeof error;
     kit_read(text, NULL, &c);

@@ -6,11 +6,11 @@
 #include <mps/mps.h>
 #include <unistd.h>
 
-enum { ROOM = 16384, COLUMNS = 64 };
+enum { CAPACITY = 16384, COLUMNS = 64 };
 
 /* Names and last row of probes.csv. */
 typedef struct table {
-    char names[ROOM], row[ROOM];
+    char names[CAPACITY], row[CAPACITY];
     int count;
     const char *name[COLUMNS];
     double value[COLUMNS];
@@ -18,7 +18,7 @@ typedef struct table {
 
 static void read_table(const char *folder, table *t)
 {
-    char path[400], line[ROOM];
+    char path[400], line[CAPACITY];
     snprintf(path, sizeof path, "%s/probes.csv", folder);
     FILE *file = fopen(path, "r");
     assert_non_null(file);
@@ -70,7 +70,7 @@ static void run(const char *text, table *t)
     assert_non_null(mkdtemp(folder));
     mps_job_config_init(&config, sizeof config);
     config.folder = folder;
-    config.say = quiet;
+    config.print = quiet;
     config.error = error;
     config.error_size = sizeof error;
     kit_read(text, NULL, &c);

@@ -173,15 +173,15 @@ static void steps(void **state)
 static void check_tells(const char *text, const char *words, const char *more)
 {
     mps_case *c = NULL;
-    char *told = NULL, *sketch = NULL;
+    char *logged = NULL, *sketch = NULL;
     const mps_status status = kit_read(text, NULL, &c);
     char *all = kit_messages(c);
     if (status != MPS_OK) fail_msg("%s", all);
     free(all);
-    if (mps_case_check(c, &told, &sketch) != MPS_OK) fail_msg("%s", kit_messages(c));
-    if (!strstr(told, words)) fail_msg("wanted: %s\n%s", words, told);
-    if (more && !strstr(told, more)) fail_msg("wanted: %s\n%s", more, told);
-    free(told);
+    if (mps_case_check(c, &logged, &sketch) != MPS_OK) fail_msg("%s", kit_messages(c));
+    if (!strstr(logged, words)) fail_msg("wanted: %s\n%s", words, logged);
+    if (more && !strstr(logged, more)) fail_msg("wanted: %s\n%s", more, logged);
+    free(logged);
     free(sketch);
     mps_case_destroy(c);
 }
@@ -190,10 +190,10 @@ static void check_tells(const char *text, const char *words, const char *more)
 static void check_refuses(const char *text, const char *words, const char *more)
 {
     mps_case *c = NULL;
-    char *told = NULL, *sketch = NULL;
+    char *logged = NULL, *sketch = NULL;
     if (kit_read(text, NULL, &c) != MPS_OK) fail_msg("%s", kit_messages(c));
-    assert_int_equal(mps_case_check(c, &told, &sketch), MPS_E_ARG);
-    assert_true(!told && !sketch);
+    assert_int_equal(mps_case_check(c, &logged, &sketch), MPS_E_ARG);
+    assert_true(!logged && !sketch);
     char *all = kit_messages(c);
     if (!strstr(all, words) || !strstr(all, more)) fail_msg("wanted: %s, %s\n%s", words, more, all);
     free(all);
@@ -241,17 +241,17 @@ static void drawings(void **state)
                 "0.7854 m2 inside", NULL);
     for (int k = 0; k < 4; k++) {
         mps_case *c = NULL;
-        char *told = NULL, *sketch = NULL;
+        char *logged = NULL, *sketch = NULL;
         snprintf(text, sizeof text,
                  TOP BOX "title: \"a<b & 'c'\"\n"
                          "motion: {centre: %s, roll: {amplitude: 1 deg, period: 1 s}}\n" END,
                  centres[k]);
         assert_int_equal(kit_read(text, NULL, &c), MPS_OK);
-        assert_int_equal(mps_case_check(c, &told, &sketch), MPS_OK);
+        assert_int_equal(mps_case_check(c, &logged, &sketch), MPS_OK);
         assert_non_null(strstr(sketch, "a&lt;b &amp; &#39;c&#39;"));
         assert_null(strstr(sketch, ">centre</text>"));
         assert_non_null(strstr(sketch, "; centre of rotation: x "));
-        free(told);
+        free(logged);
         free(sketch);
         mps_case_destroy(c);
     }
@@ -288,7 +288,7 @@ static mps_status job_of_text(const char *name, const char *text, int32_t *code)
     said[0] = '\0';
     config.folder = "unusual";
     config.overwrite = 1;
-    config.say = listen;
+    config.print = listen;
     config.error = error;
     config.error_size = sizeof error;
     assert_int_equal(mps_case_read_text(text, strlen(text), name, 0, NULL, &c), MPS_OK);
@@ -318,15 +318,15 @@ static void many_messages(void **state)
     assert_int_equal(code, MPS_EXIT_OK);
     ASSERT_SAID("further messages are not shown");
     mps_case *c = NULL;
-    char *told = NULL, *sketch = NULL;
+    char *logged = NULL, *sketch = NULL;
     assert_int_equal(kit_read(text, NULL, &c), MPS_OK);
-    assert_int_equal(mps_case_check(c, &told, &sketch), MPS_OK);
-    const char *more = strstr(told, "\n          .. and ");
+    assert_int_equal(mps_case_check(c, &logged, &sketch), MPS_OK);
+    const char *more = strstr(logged, "\n          .. and ");
     int count = 0;
     if (!more || sscanf(more, " .. and %d more messages like these", &count) != 1)
-        fail_msg("%s", told);
+        fail_msg("%s", logged);
     assert_true(count >= 5 && count < 10); /* in addition to those of the fill */
-    free(told);
+    free(logged);
     free(sketch);
     mps_case_destroy(c);
 }

@@ -98,7 +98,7 @@ ln -s ../mine.json done/statistics.json # replaced, not written through; an empt
 mkdir done/statistics.csv
 expect 0 "done/statistics.csv" "$program" stats done
 [ "$(cat mine.json)" = mine ] && [ ! -h done/statistics.json ] && [ -s done/statistics.json ] || fail "statistics.json behind a link: $(cat mine.json)"
-[ -f done/statistics.csv ] && [ -s done/statistics.csv ] || fail "no statistics.csv in place of a folder"
+[ -f done/statistics.csv ] && [ -s done/statistics.csv ] || fail "no statistics.csv instead of a folder"
 # files that may have no bytes: a full disk; log is such a file too, a pipe is none
 # shellcheck disable=SC2016
 expect 1 "cannot write 'statistics.json' in 'done': File too large" bash -c 'set -o pipefail; { trap "" XFSZ; ulimit -f 0; "$@" 2>&1; } | cat' full "$program" stats done

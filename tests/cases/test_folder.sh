@@ -24,7 +24,7 @@ unchanged() { # text in the message, folder, options...
 # ---- an earlier run
 runs 0 "${tank[@]}" --checkpoint 1 --out run
 unchanged 'there is an earlier run (checkpoint.mps, probes.csv, steps.csv, frames.pvd, summary.json)' run
-says '--resume goes on from its checkpoint' '--overwrite removes it'
+says '--resume continues from its checkpoint' '--overwrite removes it'
 unchanged '--resume and --overwrite exclude each other' run --resume --overwrite
 runs 0 "${tank[@]}" --out run --resume
 for what in probes.csv steps.csv frames.pvd summary.json; do
@@ -82,7 +82,7 @@ disk() { # options of mount, text, exit code, options of the driver...
     says "$text"
 }
 if unshare -m mount -t tmpfs none /mnt 2>/dev/null; then
-    disk size=32k 'No space left on device; the disk is full; make room on it' 2
+    disk size=32k 'No space left on device; the disk is full; free space on it' 2
     disk size=256k 'outputs cannot be written: No space left on device; the disk is full' 1 --t-end 1000 --probe-dt 1e-4 --frames 0 # in mid-run
     disk ro 'Read-only file system; the disk can only be read; choose a folder on another one' 2
 else

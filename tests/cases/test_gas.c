@@ -180,14 +180,14 @@ static void mean_pressure(void **state)
 
 /* ---- the gas of a full tank, by the compression of its rows ------------------------------- */
 
-static double give; /* sum over all rows, for 1 Pa, in cells of the lattice */
+static double release; /* sum over all rows, for 1 Pa, in cells of the lattice */
 
 static int count_cells(mps_stage *s)
 {
     const double *gas = s->data[0];
     const double whole = 1.0 / (rho * 1.4 * ambient / rho * s->view->dt * s->view->dt);
-    give = 0;
-    for (int64_t i = 0; i < s->view->n; i++) give += gas[i] / whole;
+    release = 0;
+    for (int64_t i = 0; i < s->view->n; i++) release += gas[i] / whole;
     return 0;
 }
 
@@ -226,7 +226,7 @@ static void walls_give_way(void **state)
         ASSERT_OK(sim, mps_model_register(sim, &counter));
         ASSERT_OK(sim, mps_model_use(sim, "counter.gas"));
         ASSERT_OK(sim, mps_step(sim, 1e-5, NULL));
-        ASSERT_NEAR(give, n[0] * n[1] * n[2],
+        ASSERT_NEAR(release, n[0] * n[1] * n[2],
                     0.15 * (dim == 3 ? 8 : 4)); /* at corners pairs around the edge are missing */
         mps_sim_destroy(sim);
     }

@@ -25,7 +25,7 @@ typedef struct kit {
     bool acted[MOST_VERBS];      /* the verb changes something in a scene */
 } kit;
 
-#define FAIL(k, bit, ...) ((k)->failed |= kit_say((k)->ops, (bit), __VA_ARGS__))
+#define FAIL(k, bit, ...) ((k)->failed |= kit_print((k)->ops, (bit), __VA_ARGS__))
 
 static const char *text_of(const mps_sim *sim)
 {
@@ -277,7 +277,7 @@ static void *take(void *user, size_t size)
     return block + 1;
 }
 
-static void give(void *user, void *given)
+static void release(void *user, void *given)
 {
     kit_link *block = (kit_link *)given - 1;
     ((memory *)user)->live--;
@@ -304,7 +304,7 @@ static void check_memory(kit *k)
 {
     memory m = {0};
     m.out.ring.next = m.out.ring.before = &m.out;
-    const mps_allocator allocator = {take, give, &m};
+    const mps_allocator allocator = {take, release, &m};
     kit_case c = k->scene[0];
     mps_sim *sim = NULL;
     c.allocator = &allocator;
@@ -315,7 +315,7 @@ static void check_memory(kit *k)
     }
     mps_sim_destroy(sim);
     if (m.live != 0) FAIL(k, KIT_MEMORY, "%lld blocks leaked", (long long)m.live);
-    while (m.live > 0) give(&m, m.out.ring.next + 1);
+    while (m.live > 0) release(&m, m.out.ring.next + 1);
 }
 
 /* ---- in the middle of a run ------------------------------------------------------------------ */
@@ -339,7 +339,7 @@ static void check_checkpoint(kit *k)
              rest ? mps_sim_error(rest) : "");
     else if (!kit_state_get(whole, &a) || !kit_state_get(rest, &b) || !kit_state_same(&a, &b))
         FAIL(k, KIT_CHECKPOINT,
-             "a run that goes on from a checkpoint has other bytes: what the next "
+             "a run that continues from a checkpoint has other bytes: what the next "
              "steps need must be in channels of MPS_LIFE_PARTICLE");
     kit_state_free(&a);
     kit_state_free(&b);

@@ -21,10 +21,10 @@ typedef struct run {
 /* All particles of all ranks, as rank 0 sees them. */
 static mps_status take_state(mps_sim *sim, int32_t rank, kit_state *state)
 {
-    mps_status status = mps_particles_gather(sim);
+    mps_status status = mps_particles_collect(sim);
     if (status < 0) return status;
     if (rank == 0 && !kit_state_get(sim, state)) status = MPS_E_NOMEM;
-    const mps_status end = mps_particles_gather_end(sim);
+    const mps_status end = mps_particles_collect_end(sim);
     return status < 0 ? status : end;
 }
 
@@ -86,10 +86,10 @@ static int say_difference(const kit_case *c, const kit_state *a, const kit_state
     int64_t row = -1;
     if (a->n != b->n || a->stride != b->stride ||
         memcmp(a->id, b->id, (size_t)a->n * sizeof *a->id) != 0)
-        return kit_say(c->ops, KIT_RANKS,
-                       "preset %s, %d-D, step %d: two ranks have other particles than one: %lld "
-                       "and %lld; %s",
-                       c->preset, (int)c->dim, step, (long long)b->n, (long long)a->n, hint);
+        return kit_print(c->ops, KIT_RANKS,
+                         "preset %s, %d-D, step %d: two ranks have other particles than one: %lld "
+                         "and %lld; %s",
+                         c->preset, (int)c->dim, step, (long long)b->n, (long long)a->n, hint);
     for (int32_t k = 0; k < a->fields; k++) {
         const int64_t found = first_difference(a, b, k);
         if (found < 0 || (field >= 0 && (a->field[field].own || !a->field[k].own))) continue;
@@ -102,11 +102,11 @@ static int say_difference(const kit_case *c, const kit_state *a, const kit_state
                  *two = b->data + row * a->stride + f->first;
     int32_t d = 0;
     while (d + 1 < f->components && memcmp(&one[d], &two[d], sizeof *one) == 0) d++;
-    return kit_say(c->ops, KIT_RANKS,
-                   "preset %s, %d-D, step %d: two ranks give other bytes than one: channel '%s', "
-                   "component %d of particle %lld is %.17g, not %.17g; %s",
-                   c->preset, (int)c->dim, step, f->name, (int)d, (long long)a->id[row], two[d],
-                   one[d], hint);
+    return kit_print(c->ops, KIT_RANKS,
+                     "preset %s, %d-D, step %d: two ranks give other bytes than one: channel '%s', "
+                     "component %d of particle %lld is %.17g, not %.17g; %s",
+                     c->preset, (int)c->dim, step, f->name, (int)d, (long long)a->id[row], two[d],
+                     one[d], hint);
 }
 
 static int compare(const kit_case *c, run *one, run *two)
@@ -115,8 +115,8 @@ static int compare(const kit_case *c, run *one, run *two)
     if (!text) text = execute(two, RANKS);
     if (text && strstr(text, "works on one rank only")) return 0;
     if (text)
-        return kit_say(c->ops, KIT_RANKS, "preset %s, %d-D, on %d ranks: %s", c->preset,
-                       (int)c->dim, two->team ? RANKS : 1, text);
+        return kit_print(c->ops, KIT_RANKS, "preset %s, %d-D, on %d ranks: %s", c->preset,
+                         (int)c->dim, two->team ? RANKS : 1, text);
     int failed = 0;
     for (int k = 0; k < one->steps && !failed; k++)
         if (!kit_state_same(&one->state[k], &two->state[k]))

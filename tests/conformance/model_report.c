@@ -9,7 +9,7 @@ static const char *name_of(const mps_model_ops *ops)
     return ops->name ? ops->name : "(no name)";
 }
 
-int kit_say(const mps_model_ops *ops, int bit, const char *format, ...)
+int kit_print(const mps_model_ops *ops, int bit, const char *format, ...)
 {
     va_list list;
     va_start(list, format);

@@ -66,7 +66,7 @@ bool kit_state_same(const kit_state *a, const kit_state *b);
 #if defined(__GNUC__)
 __attribute__((format(printf, 3, 4)))
 #endif
-int kit_say(const mps_model_ops *ops, int bit, const char *format, ...);
+int kit_print(const mps_model_ops *ops, int bit, const char *format, ...);
 
 /* Name of a hook, e.g. "MPS_FORCE". */
 const char *kit_hook(int32_t hook);

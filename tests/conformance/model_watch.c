@@ -35,11 +35,11 @@ static bool reads(const mps_use *use)
 
 static void say_repeat(const mps_stage *s)
 {
-    watch.failed |= kit_say(watch.ops, KIT_REPEAT,
-                            "%s: two runs of the verb on the same values give different results: "
-                            "it depends on something that is neither in its stage nor in its "
-                            "channels, e.g. a static variable or a counter in s->self",
-                            kit_hook(s->hook));
+    watch.failed |= kit_print(watch.ops, KIT_REPEAT,
+                              "%s: two runs of the verb on the same values give different results: "
+                              "it depends on something that is neither in its stage nor in its "
+                              "channels, e.g. a static variable or a counter in s->self",
+                              kit_hook(s->hook));
 }
 
 /* Whether a run on the previous values gives the result of the run on the real arrays. */
@@ -93,9 +93,9 @@ static void compare_written(const mps_stage *s, const mps_verb *verb, const kit_
             const bool kept = !reads(&verb->uses[u]) && is_poison(fake + b, k->type);
             if (kept || memcmp(fake + b, real + b, size) == 0) continue;
             if (repeats(s, verb, before))
-                watch.failed |= kit_say(watch.ops, KIT_WRITE_ONLY,
-                                        "%s: '%s' depends on values before a pure MPS_USE_WRITE",
-                                        kit_hook(s->hook), k->name);
+                watch.failed |= kit_print(watch.ops, KIT_WRITE_ONLY,
+                                          "%s: '%s' depends on values before a pure MPS_USE_WRITE",
+                                          kit_hook(s->hook), k->name);
             return;
         }
     }
@@ -159,10 +159,10 @@ static void compare_rows(const mps_stage *s, const mps_verb *verb, const kit_arr
         }
     }
     if (near >= 0 && repeats(s, verb, before))
-        watch.failed |= kit_say(watch.ops, KIT_OWN_ROW,
-                                "%s: '%s' is used with MPS_USE_READ, and its value at a particle "
-                                "changes what a neighbour gets: MPS_USE_NEIGHBOURS",
-                                kit_hook(s->hook), channel);
+        watch.failed |= kit_print(watch.ops, KIT_OWN_ROW,
+                                  "%s: '%s' is used with MPS_USE_READ, and its value at a particle "
+                                  "changes what a neighbour gets: MPS_USE_NEIGHBOURS",
+                                  kit_hook(s->hook), channel);
 }
 
 /* ---- sums of several models ------------------------------------------------------------------ */
@@ -226,10 +226,10 @@ static void compare_sums(const mps_stage *s, const mps_verb *verb, int number,
             if (verb->after ? kept != 0 : fabs(kept - wanted) <= 1e-6 * (largest + wanted))
                 continue;
             if (repeats(s, verb, before))
-                watch.failed |= kit_say(watch.ops, KIT_ADDS,
-                                        "%s: of %g that another model added to '%s', %g is left: "
-                                        "add with +=, do not overwrite",
-                                        kit_hook(s->hook), wanted, verb->uses[u].channel, kept);
+                watch.failed |= kit_print(watch.ops, KIT_ADDS,
+                                          "%s: of %g that another model added to '%s', %g is left: "
+                                          "add with +=, do not overwrite",
+                                          kit_hook(s->hook), wanted, verb->uses[u].channel, kept);
             return;
         }
     }
@@ -249,11 +249,11 @@ static void compare_solids(const mps_stage *s, const mps_verb *verb, const kit_a
         for (int64_t v = 0; v < s->view->n * s->view->dim; v++) {
             const int32_t kind = s->view->kind[v / s->view->dim];
             if (kind == MPS_FLUID || memcmp(&was[v], &is[v], sizeof *is) == 0) continue;
-            watch.failed |= kit_say(watch.ops, KIT_SOLIDS,
-                                    "%s: '%s' of a %s is changed: solids move with the tank, a "
-                                    "model moves rows with view->kind[i] == MPS_FLUID only",
-                                    kit_hook(s->hook), verb->uses[u].channel,
-                                    kind == MPS_WALL ? "wall particle" : "dummy");
+            watch.failed |= kit_print(watch.ops, KIT_SOLIDS,
+                                      "%s: '%s' of a %s is changed: solids move with the tank, a "
+                                      "model moves rows with view->kind[i] == MPS_FLUID only",
+                                      kit_hook(s->hook), verb->uses[u].channel,
+                                      kind == MPS_WALL ? "wall particle" : "dummy");
             return;
         }
     }
@@ -269,8 +269,9 @@ static void compare_read(const mps_stage *s, const mps_verb *verb, const kit_arr
         const size_t size = kit_bytes(k, s->view->n);
         if (memcmp(before->of[u], s->data[u], size) == 0) continue;
         memcpy(s->data[u], before->of[u], size);
-        watch.failed |= kit_say(watch.ops, KIT_WRITES, "%s: '%s' is written without MPS_USE_WRITE",
-                                kit_hook(s->hook), k->name);
+        watch.failed |= kit_print(watch.ops, KIT_WRITES,
+                                  "%s: '%s' is written without MPS_USE_WRITE", kit_hook(s->hook),
+                                  k->name);
     }
 }
 
@@ -412,8 +413,8 @@ int kit_watch(const kit_case *scene, bool acted[])
     if (status >= 0) kit_learn_shapes(sim);
     if (status >= 0) status = kit_steps(sim, STEPS);
     if (status < 0)
-        watch.failed |= kit_say(scene->ops, KIT_RUN, "preset %s, %d-D, verbs run twice: %s",
-                                c.preset, (int)c.dim, sim ? mps_sim_error(sim) : "no handle");
+        watch.failed |= kit_print(scene->ops, KIT_RUN, "preset %s, %d-D, verbs run twice: %s",
+                                  c.preset, (int)c.dim, sim ? mps_sim_error(sim) : "no handle");
     mps_sim_destroy(sim);
     for (int32_t v = 0; v < scene->ops->verb_count; v++) acted[v] = acted[v] || watch.acted[v];
     return watch.failed;

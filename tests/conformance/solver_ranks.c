@@ -98,9 +98,9 @@ static void run_rank(void *argument, int32_t rank)
     mps_status status = mps_sim_create(&config, &sim);
     if (status >= 0) status = build(r, rank, sim);
     for (int k = 0; k < STEPS && status >= 0; k++) status = mps_step(sim, 1e-3, NULL);
-    if (status >= 0) status = mps_particles_gather(sim);
+    if (status >= 0) status = mps_particles_collect(sim);
     if (status >= 0 && rank == 0) status = take_pressures(r, sim);
-    if (status >= 0) status = mps_particles_gather_end(sim);
+    if (status >= 0) status = mps_particles_collect_end(sim);
     r->status[rank] = status;
     if (status < 0) snprintf(r->text[rank], TEXT, "%s", sim ? mps_sim_error(sim) : "no handle");
     mps_sim_destroy(sim);
@@ -133,7 +133,7 @@ static bool compare(run *one, run *two, char text[KIT_RANKS_TEXT])
     snprintf(text, KIT_RANKS_TEXT,
              "solutions on two ranks and on one differ by %g: must be <= %g. Usual reasons: a sum "
              "or maximum without mps_ppe_total(); a vector multiplied by the matrix without "
-             "mps_ppe_share()",
+             "mps_ppe_halo()",
              off, AGREE);
     return !(off <= AGREE);
 }

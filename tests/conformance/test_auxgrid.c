@@ -180,15 +180,15 @@ static void same_at_another_place(void **state)
         for (int64_t i = 0; i < count; i++)
             s->x[i] = 0x1p-24 * floor(0x1p17 * s->x[i] / s->problem.dp);
         s->problem.dp = 0x1p-7;
-        double *here = applied(&s->problem);
+        double *on_host = applied(&s->problem);
         for (size_t m = 0; m < sizeof moves / sizeof moves[0]; m++) {
             for (int64_t i = 0; i < count; i++) s->x[i] += moves[m];
-            double *there = applied(&s->problem);
-            check_same_bytes(here, there, s->problem.n);
-            free(there);
+            double *on_device = applied(&s->problem);
+            check_same_bytes(on_host, on_device, s->problem.n);
+            free(on_device);
             for (int64_t i = 0; i < count; i++) s->x[i] -= moves[m];
         }
-        free(here);
+        free(on_host);
         kit_system_free(s);
     }
 }

@@ -17,7 +17,7 @@
 #include "force_fixture.h"
 
 /* What the kit printed last, on both streams. */
-static char told[16384];
+static char logged[16384];
 
 static int check_told(const mps_model_ops *ops)
 {
@@ -35,7 +35,7 @@ static int check_told(const mps_model_ops *ops)
     close(out);
     close(err);
     rewind(file);
-    told[fread(told, 1, sizeof told - 1, file)] = '\0';
+    logged[fread(logged, 1, sizeof logged - 1, file)] = '\0';
     fclose(file);
     return failed;
 }
@@ -47,13 +47,13 @@ static int verb_told(int (*run)(mps_stage *))
     return check_told(&ops);
 }
 
-#define TOLD(text)                                                                \
-    do {                                                                          \
-        if (!strstr(told, (text))) fail_msg("\"%s\" is not in:\n%s", text, told); \
+#define TOLD(text)                                                                    \
+    do {                                                                              \
+        if (!strstr(logged, (text))) fail_msg("\"%s\" is not in:\n%s", text, logged); \
     } while (0)
-#define NOT_TOLD(text)                                                       \
-    do {                                                                     \
-        if (strstr(told, (text))) fail_msg("\"%s\" is in:\n%s", text, told); \
+#define NOT_TOLD(text)                                                           \
+    do {                                                                         \
+        if (strstr(logged, (text))) fail_msg("\"%s\" is in:\n%s", text, logged); \
     } while (0)
 
 /* ---- models that pass ------------------------------------------------------------------------ */
@@ -62,9 +62,9 @@ static void passes(void **state)
 {
     (void)state;
     assert_int_equal(verb_told(damp), 0);
-    assert_string_equal(told, "model_kit: bad.model: passed; checks: 18, verbs: 1, settings: 0, "
-                              "scenes: imps 2-D, imps 3-D, mmps 2-D, imps.paper 2-D, mmps 3-D, "
-                              "mmps.paper 2-D\n");
+    assert_string_equal(logged, "model_kit: bad.model: passed; checks: 18, verbs: 1, settings: 0, "
+                                "scenes: imps 2-D, imps 3-D, mmps 2-D, imps.paper 2-D, mmps 3-D, "
+                                "mmps.paper 2-D\n");
 }
 
 static int do_nothing(mps_stage *s)

@@ -9,12 +9,12 @@
 
 /* Numbers of errors, as the driver has them. */
 enum { INVALID = 1, NO_MEMORY = 2, NO_IMAGE = 209, BAD_TEXT = 218, NO_KERNEL = 500, FAILED = 719 };
-enum { ROOMS = 1024, KERNELS = 4096, ARGUMENTS = 16384 };
+enum { BLOCKS = 1024, KERNELS = 4096, ARGUMENTS = 16384 };
 
-typedef struct room {
+typedef struct block {
     char *begin;
     size_t bytes;
-} room;
+} block;
 
 typedef struct kernel {
     cl_kernel kernel;
@@ -31,7 +31,7 @@ static struct {
     cl_command_queue queue;
     cl_program program;
     char *text; /* PTX */
-    room room[ROOMS];
+    block block[BLOCKS];
     kernel kernel[KERNELS];
     int kernels;
     void *arguments;
@@ -71,7 +71,7 @@ int standin_device(void)
 int standin_open(void)
 {
     int open = s.open;
-    for (int k = 0; k < ROOMS; k++) open += s.room[k].begin != NULL;
+    for (int k = 0; k < BLOCKS; k++) open += s.block[k].begin != NULL;
     return open;
 }
 
@@ -220,11 +220,11 @@ int cuStreamSynchronize(cuda_handle stream)
 /* ---- memory ---- */
 
 /* The allocation that contains these bytes. */
-static room *room_of(cuda_address address, size_t bytes)
+static block *block_of(cuda_address address, size_t bytes)
 {
     const char *at = (const char *)(uintptr_t)address;
-    for (int k = 0; k < ROOMS; k++) {
-        room *r = &s.room[k];
+    for (int k = 0; k < BLOCKS; k++) {
+        block *r = &s.block[k];
         if (r->begin && at >= r->begin && at + bytes <= r->begin + r->bytes) return r;
     }
     return NULL;
@@ -234,29 +234,29 @@ int cuMemAlloc_v2(cuda_address *address, size_t bytes)
 {
     MAY_FAIL(NO_MEMORY);
     int k = 0;
-    while (k < ROOMS && s.room[k].begin) k++;
-    if (k == ROOMS || depth != 1) return NO_MEMORY;
-    s.room[k].begin = clSVMAlloc(s.context, CL_MEM_READ_WRITE, bytes, 0);
-    s.room[k].bytes = bytes;
-    if (!s.room[k].begin) return NO_MEMORY;
-    memset(s.room[k].begin, 0xff, bytes);
-    *address = (uintptr_t)s.room[k].begin;
+    while (k < BLOCKS && s.block[k].begin) k++;
+    if (k == BLOCKS || depth != 1) return NO_MEMORY;
+    s.block[k].begin = clSVMAlloc(s.context, CL_MEM_READ_WRITE, bytes, 0);
+    s.block[k].bytes = bytes;
+    if (!s.block[k].begin) return NO_MEMORY;
+    memset(s.block[k].begin, 0xff, bytes);
+    *address = (uintptr_t)s.block[k].begin;
     return 0;
 }
 
 int cuMemFree_v2(cuda_address address)
 {
-    room *r = room_of(address, 0);
+    block *r = block_of(address, 0);
     if (!r || depth != 1) return INVALID;
     clSVMFree(s.context, r->begin);
-    *r = (room){0};
+    *r = (block){0};
     return 0;
 }
 
 int cuMemcpyHtoDAsync_v2(cuda_address to, const void *from, size_t bytes, cuda_handle stream)
 {
     MAY_FAIL(FAILED);
-    if (!room_of(to, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
+    if (!block_of(to, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
     memcpy((void *)(uintptr_t)to, from, bytes);
     return 0;
 }
@@ -264,7 +264,7 @@ int cuMemcpyHtoDAsync_v2(cuda_address to, const void *from, size_t bytes, cuda_h
 int cuMemcpyDtoHAsync_v2(void *to, cuda_address from, size_t bytes, cuda_handle stream)
 {
     MAY_FAIL(FAILED);
-    if (!room_of(from, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
+    if (!block_of(from, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
     memcpy(to, (const void *)(uintptr_t)from, bytes);
     return 0;
 }
@@ -272,7 +272,7 @@ int cuMemcpyDtoHAsync_v2(void *to, cuda_address from, size_t bytes, cuda_handle 
 int cuMemcpyDtoDAsync_v2(cuda_address to, cuda_address from, size_t bytes, cuda_handle stream)
 {
     MAY_FAIL(FAILED);
-    if (!room_of(to, bytes) || !room_of(from, bytes) || stream != (cuda_handle)&depth)
+    if (!block_of(to, bytes) || !block_of(from, bytes) || stream != (cuda_handle)&depth)
         return INVALID;
     memcpy((void *)(uintptr_t)to, (const void *)(uintptr_t)from, bytes);
     return 0;
@@ -281,7 +281,7 @@ int cuMemcpyDtoDAsync_v2(cuda_address to, cuda_address from, size_t bytes, cuda_
 int cuMemsetD8Async(cuda_address to, unsigned char value, size_t bytes, cuda_handle stream)
 {
     MAY_FAIL(FAILED);
-    if (!room_of(to, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
+    if (!block_of(to, bytes) || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
     memset((void *)(uintptr_t)to, value, bytes);
     return 0;
 }
@@ -379,7 +379,7 @@ int cuLaunchKernel(cuda_handle started, unsigned groups, unsigned groups_y, unsi
     if (groups == 0 || depth != 1 || stream != (cuda_handle)&depth) return INVALID;
     if (k->bytes == 0) {
         memcpy(&address, arguments[0], sizeof address);
-        if (!room_of(address, 1)) return INVALID;
+        if (!block_of(address, 1)) return INVALID;
     } else
         memcpy(s.arguments, arguments[0], k->bytes);
     void *given = k->bytes ? s.arguments : (void *)(uintptr_t)address;

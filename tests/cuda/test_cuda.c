@@ -122,7 +122,8 @@ static void steps_fail(void **state)
         if (visits >= fault[k].visit) {
             const bool memory = fault[k].status == MPS_E_NOMEM;
             assert_int_equal(status, fault[k].status);
-            assert_non_null(strstr(mps_sim_error(sim), memory ? "room" : "as the test wants it"));
+            assert_non_null(
+                strstr(mps_sim_error(sim), memory ? "no memory" : "as the test wants it"));
             if (first) go(sim, 1);
             same(host, sim);
         } else

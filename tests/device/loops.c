@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "loops.h"
-#include "host.h"
+#include "runner.h"
 #include "loop.h"
 #include <math.h>
 #include <setjmp.h>
@@ -51,15 +51,15 @@ static const block *block_of(const char *address)
 
 /* ---- copies at the device ---- */
 
-typedef struct twin {
+typedef struct mirror {
     const block *of;
     char *begin;
-} twin;
+} mirror;
 
-typedef struct twins {
+typedef struct memory {
     int count;
-    twin list[WORDS];
-} twins;
+    mirror list[WORDS];
+} memory;
 
 static opencl *device;
 static uintptr_t bottom; /* of the stack that a step may use */
@@ -70,21 +70,21 @@ void loops_watch(opencl *o)
     bottom = (uintptr_t)__builtin_frame_address(0);
 }
 
-static char *twin_of(twins *t, const block *b)
+static char *mirror_of(memory *t, const block *b)
 {
     for (int k = 0; k < t->count; k++)
         if (t->list[k].of == b) return t->list[k].begin;
     assert_true(t->count < WORDS);
-    char *begin = device->ops.room(device, b->bytes);
+    char *begin = device->ops.alloc(device, b->bytes);
     assert_non_null(begin);
     assert_int_equal(device->ops.upload(device, begin, b->begin, b->bytes), 0);
-    t->list[t->count++] = (twin){b, begin};
+    t->list[t->count++] = (mirror){b, begin};
     return begin;
 }
 
 /* Addresses of the library's memory become those of copies. One of the stack would be of no use on
  * a device. */
-static void translate(twins *t, const char *loop, void *arguments, size_t bytes)
+static void translate(memory *t, const char *loop, void *arguments, size_t bytes)
 {
     const uintptr_t here = (uintptr_t)__builtin_frame_address(0);
     for (size_t at = 0; at + sizeof(char *) <= bytes; at += sizeof(char *)) {
@@ -94,14 +94,14 @@ static void translate(twins *t, const char *loop, void *arguments, size_t bytes)
         if ((uintptr_t)address > here && (uintptr_t)address < bottom)
             fail_msg("%s: word %zu of its arguments is an address of the stack", loop, at / 8);
         if (!b) continue;
-        address = twin_of(t, b) + (address - b->begin);
+        address = mirror_of(t, b) + (address - b->begin);
         memcpy((char *)arguments + at, &address, sizeof address);
     }
 }
 
-static void give_back(const twins *t)
+static void release_all(const memory *t)
 {
-    for (int k = 0; k < t->count; k++) device->ops.give(device, t->list[k].begin);
+    for (int k = 0; k < t->count; k++) device->ops.free(device, t->list[k].begin);
 }
 
 /* ---- loops ---- */
@@ -115,7 +115,7 @@ typedef struct job {
     int32_t dim, count;
     mps_view view;
     _Alignas(16) char fields[4096 * 4];
-    twins twins;
+    memory memory;
 } job;
 
 /* The host code, as the library runs it. */
@@ -150,11 +150,11 @@ static void both(job *k, const mps_launch *given, const void *fields, mps_exact 
     if (!opencl_knows(o, &l)) return;
     assert_true(l.bytes <= sizeof k->fields);
     memcpy(k->fields, fields, l.bytes);
-    translate(&k->twins, l.name, k->fields, l.bytes);
-    if (l.view) translate(&k->twins, l.name, &k->view, sizeof k->view);
-    const int failed = l.sums + l.maxima > 0 ? o->ops.values(o, &l, sum, maximum)
-                                             : o->ops.rows(o, &l);
-    give_back(&k->twins);
+    translate(&k->memory, l.name, k->fields, l.bytes);
+    if (l.view) translate(&k->memory, l.name, &k->view, sizeof k->view);
+    const int failed = l.sums + l.maxima > 0 ? o->ops.reduce(o, &l, sum, maximum)
+                                             : o->ops.launch(o, &l);
+    release_all(&k->memory);
     if (failed) fail_msg("%s", o->failure);
 }
 
@@ -236,7 +236,7 @@ static void view_on_both(const mps_view *v, const mps_rows *rows, const mps_sums
 
 static bool watched_stage(const mps_stage *s)
 {
-    const mps__host *h = s->host;
+    const mps__runner *h = s->host;
     return watched(h->parallel, s->view->n);
 }
 
@@ -248,17 +248,17 @@ static bool watched_stage(const mps_stage *s)
         before;                                           \
         __real_##name arguments;                          \
     }
-WRAP(void, mps__host_rows,
-     (const mps__host *h, const mps_view *v, const mps_rows *rows, const void *fields),
+WRAP(void, mps__runner_rows,
+     (const mps__runner *h, const mps_view *v, const mps_rows *rows, const void *fields),
      (h, v, rows, fields),
      if (watched(h->parallel, v->n)) view_on_both(v, rows, NULL, fields, 0, false))
-WRAP(void, mps__host_sum,
-     (const mps__host *h, const mps_view *v, int32_t count, const mps_sums *add, const void *fields,
-      double *sums),
+WRAP(void, mps__runner_sum,
+     (const mps__runner *h, const mps_view *v, int32_t count, const mps_sums *add,
+      const void *fields, double *sums),
      (h, v, count, add, fields, sums),
      if (watched(h->parallel, v->n)) view_on_both(v, NULL, add, fields, count, false))
-WRAP(void, mps__host_max,
-     (const mps__host *h, const mps_view *v, int32_t count, const mps_sums *raise,
+WRAP(void, mps__runner_max,
+     (const mps__runner *h, const mps_view *v, int32_t count, const mps_sums *raise,
       const void *fields, double *maxima),
      (h, v, count, raise, fields, maxima),
      if (watched(h->parallel, v->n)) view_on_both(v, NULL, raise, fields, count, true))

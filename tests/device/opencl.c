@@ -23,7 +23,7 @@ static int fail(opencl *o, const char *format, ...)
 
 /* ---- memory ---- */
 
-static bool take(opencl *o, opencl_room *r, size_t bytes)
+static bool take(opencl *o, opencl_block *r, size_t bytes)
 {
     if (bytes <= r->bytes) return true;
     if (r->begin) clSVMFree(o->context, r->begin);
@@ -32,35 +32,36 @@ static bool take(opencl *o, opencl_room *r, size_t bytes)
     return r->begin != NULL;
 }
 
-static void *room(void *self, uint64_t bytes)
+static void *take_block(void *self, uint64_t bytes)
 {
     opencl *o = self;
     int k = 0;
-    while (k < OPENCL_ROOMS && o->room[k].begin) k++;
-    if (k == OPENCL_ROOMS || !take(o, &o->room[k], bytes)) return NULL;
-    return o->room[k].begin;
+    while (k < OPENCL_BLOCKS && o->block[k].begin) k++;
+    if (k == OPENCL_BLOCKS || !take(o, &o->block[k], bytes)) return NULL;
+    return o->block[k].begin;
 }
 
-static void drop(opencl *o, opencl_room *r)
+static void drop(opencl *o, opencl_block *r)
 {
     if (r->begin) clSVMFree(o->context, r->begin);
     free(r->before);
     free(r->host);
-    *r = (opencl_room){0};
+    *r = (opencl_block){0};
 }
 
-static opencl_room *room_of(opencl *o, const void *address)
+static opencl_block *block_of(opencl *o, const void *address)
 {
     const char *at = address;
-    for (int k = 0; k < OPENCL_ROOMS; k++)
-        if (o->room[k].begin && at >= o->room[k].begin && at < o->room[k].begin + o->room[k].bytes)
-            return &o->room[k];
+    for (int k = 0; k < OPENCL_BLOCKS; k++)
+        if (o->block[k].begin && at >= o->block[k].begin &&
+            at < o->block[k].begin + o->block[k].bytes)
+            return &o->block[k];
     return NULL;
 }
 
-static void give(void *self, void *begin)
+static void release(void *self, void *begin)
 {
-    opencl_room *r = room_of(self, begin);
+    opencl_block *r = block_of(self, begin);
     if (r) drop(self, r);
 }
 
@@ -72,18 +73,18 @@ static int move(opencl *o, void *to, const void *from, uint64_t bytes)
 
 static int upload(void *self, void *to, const void *from, uint64_t bytes)
 {
-    return room_of(self, to) ? move(self, to, from, bytes) : fail(self, "upload to no room");
+    return block_of(self, to) ? move(self, to, from, bytes) : fail(self, "upload to no block");
 }
 
 static int download(void *self, void *to, const void *from, uint64_t bytes)
 {
-    return room_of(self, from) ? move(self, to, from, bytes) : fail(self, "download of no room");
+    return block_of(self, from) ? move(self, to, from, bytes) : fail(self, "download of no block");
 }
 
 static int copy(void *self, void *to, const void *from, uint64_t bytes)
 {
-    return room_of(self, to) && room_of(self, from) ? move(self, to, from, bytes)
-                                                    : fail(self, "copy of no room");
+    return block_of(self, to) && block_of(self, from) ? move(self, to, from, bytes)
+                                                      : fail(self, "copy of no block");
 }
 
 static int clear(void *self, void *to, uint64_t bytes)
@@ -157,7 +158,7 @@ static int start(opencl *o, cl_kernel kernel, const char *name, int64_t threads,
 static int run_kernel(opencl *o, const opencl_kernel *k, const mps_launch *l, mps__launch head)
 {
     const size_t view = l->view ? sizeof *l->view : 0, bytes = sizeof head + view + l->bytes;
-    if (!take(o, &o->arguments, bytes)) return fail(o, "no room for arguments");
+    if (!take(o, &o->arguments, bytes)) return fail(o, "no memory for arguments");
     memcpy(o->arguments.begin, &head, sizeof head);
     if (l->view) memcpy(o->arguments.begin + sizeof head, l->view, view);
     memcpy(o->arguments.begin + sizeof head + view, l->fields, l->bytes);
@@ -169,7 +170,7 @@ static int join(opencl *o, const char *name, const mps__launch_join *g, int64_t 
 {
     const opencl_kernel *k = kernel_named(o, name, 2);
     if (!k || !k->kernel) return fail(o, "there is no kernel %s", name);
-    if (!take(o, &o->arguments, sizeof *g)) return fail(o, "no room for arguments");
+    if (!take(o, &o->arguments, sizeof *g)) return fail(o, "no memory for arguments");
     memcpy(o->arguments.begin, g, sizeof *g);
     return start(o, k->kernel, name, values * g->parts * MPS__LAUNCH_GROUP, MPS__LAUNCH_GROUP);
 }
@@ -220,12 +221,12 @@ static void look(opencl *o, const void *arguments, size_t bytes)
     for (size_t at = 0; at + sizeof(void *) <= bytes; at += sizeof(void *)) {
         void *address;
         memcpy(&address, (const char *)arguments + at, sizeof address);
-        opencl_room *r = room_of(o, address);
+        opencl_block *r = block_of(o, address);
         if (r) r->seen = true;
     }
 }
 
-static bool keep(opencl_room *r)
+static bool keep(opencl_block *r)
 {
     if (r->copied < r->bytes) {
         free(r->before);
@@ -240,24 +241,24 @@ static bool keep(opencl_room *r)
 /* Whether a kernel is cancelled, as the host code then. */
 static bool left_out(const mps_launch *l)
 {
-    return l->unless && *l->unless;
+    return l->cancel && *l->cancel;
 }
 
 /* Run the host code on the arrays, store its results, and restore the arrays. */
 static int run_host(opencl *o, const mps_launch *l, mps_exact *sum, double *maximum)
 {
-    for (int k = 0; k < OPENCL_ROOMS; k++) o->room[k].seen = false;
+    for (int k = 0; k < OPENCL_BLOCKS; k++) o->block[k].seen = false;
     if (l->view) look(o, l->view, sizeof *l->view);
     look(o, l->fields, l->bytes);
-    for (int k = 0; k < OPENCL_ROOMS; k++) {
-        opencl_room *r = &o->room[k];
+    for (int k = 0; k < OPENCL_BLOCKS; k++) {
+        opencl_block *r = &o->block[k];
         if (!r->seen) continue;
         if (!keep(r)) return fail(o, "no memory");
         memcpy(r->before, r->begin, r->bytes);
     }
     if (!left_out(l)) l->run(l->host, 0, l->n, sum, maximum);
-    for (int k = 0; k < OPENCL_ROOMS; k++) {
-        opencl_room *r = &o->room[k];
+    for (int k = 0; k < OPENCL_BLOCKS; k++) {
+        opencl_block *r = &o->block[k];
         if (!r->seen) continue;
         memcpy(r->host, r->begin, r->bytes);
         memcpy(r->begin, r->before, r->bytes);
@@ -279,7 +280,7 @@ static void differ(opencl *o, opencl_kernel *k, const char *what, size_t at, con
 }
 
 /* Union-find trees of rows: concurrent threads give different paths to the same roots. */
-static bool same_trees(const opencl_kernel *k, const opencl_room *r)
+static bool same_trees(const opencl_kernel *k, const opencl_block *r)
 {
     const int32_t n = (int32_t)(r->bytes / sizeof(int32_t));
     int32_t *const tree[2] = {(int32_t *)(void *)r->begin, (int32_t *)(void *)r->host};
@@ -297,10 +298,10 @@ static bool same_trees(const opencl_kernel *k, const opencl_room *r)
     return true;
 }
 
-static void compare_rooms(opencl *o, opencl_kernel *kernel)
+static void compare_blocks(opencl *o, opencl_kernel *kernel)
 {
-    for (int k = 0; k < OPENCL_ROOMS; k++) {
-        const opencl_room *r = &o->room[k];
+    for (int k = 0; k < OPENCL_BLOCKS; k++) {
+        const opencl_block *r = &o->block[k];
         size_t at = 0;
         char what[40];
         if (!r->seen || memcmp(r->begin, r->host, r->bytes) == 0 || same_trees(kernel, r)) continue;
@@ -315,16 +316,16 @@ static int rows(void *self, const mps_launch *l)
 {
     opencl *o = self;
     opencl_kernel *k = kernel_of(o, l);
-    if (!k) return fail(o, "more kernels than the test has room for");
+    if (!k) return fail(o, "more kernels than the table of the test has entries");
     k->launches++;
     if (!k->kernel) {
         l->run(l->host, 0, l->n, NULL, NULL);
         return 0;
     }
     if (run_host(o, l, NULL, NULL)) return 1;
-    if (run_kernel(o, k, l, (mps__launch){.n = l->n, .unless = l->unless, .skip = l->skip}))
+    if (run_kernel(o, k, l, (mps__launch){.n = l->n, .cancel = l->cancel, .mask = l->mask}))
         return 1;
-    compare_rooms(o, k);
+    compare_blocks(o, k);
     return 0;
 }
 
@@ -335,7 +336,7 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
     const int32_t count = l->sums + l->maxima;
     mps_exact host_sum[MPS_PARALLEL_VALUES];
     double host_maximum[MPS_PARALLEL_VALUES];
-    if (!k) return fail(o, "more kernels than the test has room for");
+    if (!k) return fail(o, "more kernels than the table of the test has entries");
     k->launches++;
     if (!k->kernel) {
         l->run(l->host, 0, l->n, sum, maximum);
@@ -349,11 +350,11 @@ static int values(void *self, const mps_launch *l, mps_exact *sum, double *maxim
                               .count = count,
                               .first = l->sums > 0 ? 0 : -INFINITY,
                               .terms = opencl_terms(o, count, l->n),
-                              .unless = l->unless,
-                              .skip = l->skip};
-    if (!head.terms) return fail(o, "no room for terms");
+                              .cancel = l->cancel,
+                              .mask = l->mask};
+    if (!head.terms) return fail(o, "no memory for terms");
     if (run_kernel(o, k, l, head)) return 1;
-    compare_rooms(o, k);
+    compare_blocks(o, k);
     if (left_out(l)) return 0;
     if (opencl_join(o, l->n, l->sums, sum, l->maxima, maximum)) return 1;
     for (int m = 0; m < l->sums; m++)
@@ -374,7 +375,7 @@ static int gather(void *self, const mps_launch *l, void *to)
     double maximum[MPS_PARALLEL_VALUES];
     const size_t sums = (size_t)l->sums * sizeof *sum;
     for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
-    if (!room_of(o, to)) return fail(o, "results go to no room");
+    if (!block_of(o, to)) return fail(o, "results go to no block");
     if (values(o, l, sum, maximum)) return 1;
     if (left_out(l)) return 0;
     return (l->sums > 0 && move(o, to, sum, sums)) ||
@@ -423,15 +424,15 @@ bool opencl_open(opencl *o, const char *bitcode)
                           .api = MPS_DEVICE_API,
                           .name = "opencl",
                           .self = o,
-                          .room = room,
-                          .give = give,
+                          .alloc = take_block,
+                          .free = release,
                           .upload = upload,
                           .download = download,
                           .clear = clear,
                           .copy = copy,
-                          .rows = rows,
-                          .values = values,
-                          .gather = gather,
+                          .launch = rows,
+                          .reduce = values,
+                          .reduce_async = gather,
                           .wait = wait_for,
                           .failure = failure}};
     if (clGetPlatformIDs(1, &platform, NULL) ||
@@ -445,7 +446,7 @@ bool opencl_open(opencl *o, const char *bitcode)
 
 void opencl_close(opencl *o)
 {
-    for (int k = 0; k < OPENCL_ROOMS; k++) drop(o, &o->room[k]);
+    for (int k = 0; k < OPENCL_BLOCKS; k++) drop(o, &o->block[k]);
     drop(o, &o->arguments);
     drop(o, &o->terms);
     drop(o, &o->results);

@@ -9,16 +9,16 @@
 #include <CL/cl.h>
 #include <mps/device.h>
 
-enum { OPENCL_ROOMS = 512, OPENCL_KERNELS = 512, OPENCL_NAME = 80 };
+enum { OPENCL_BLOCKS = 512, OPENCL_KERNELS = 512, OPENCL_NAME = 80 };
 
 /* Memory of the device. */
-typedef struct opencl_room {
+typedef struct opencl_block {
     char *begin;
     size_t bytes;
     char *before, *host; /* copies: before a loop, and after it on the host */
     size_t copied;       /* capacity of the copies [bytes] */
     bool seen;           /* an argument of the loop points into it */
-} opencl_room;
+} opencl_block;
 
 typedef struct opencl_kernel {
     char name[OPENCL_NAME];
@@ -31,7 +31,7 @@ typedef struct opencl {
     cl_context context;
     cl_command_queue queue;
     cl_program program;
-    opencl_room room[OPENCL_ROOMS], arguments, terms, results;
+    opencl_block block[OPENCL_BLOCKS], arguments, terms, results;
     opencl_kernel kernel[OPENCL_KERNELS];
     int kernels;
     char difference[400]; /* the first one; empty: none */

@@ -58,8 +58,8 @@ static void presets(void **state)
 }
 
 /* Loops of grids of the host and of a device. */
-static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
-                                       "auxgrid_transfer__add_turns in 3-D",
+static const char *const of_grids[] = {"auxgrid_transfer__add_visits in 2-D",
+                                       "auxgrid_transfer__add_visits in 3-D",
                                        "auxgrid_cycle__relax_rows in 2-D",
                                        "auxgrid_cycle__relax_rows in 3-D",
                                        "auxgrid_cycle__begin_rows in 2-D",
@@ -67,30 +67,30 @@ static const char *const of_grids[] = {"auxgrid_transfer__add_turns in 2-D",
                                        "auxgrid_cycle__correct_rows in 3-D",
                                        "auxgrid_cycle__rest_rows in 2-D",
                                        "auxgrid_cycle__rest_rows in 3-D",
-                                       "auxgrid_coarse__gather_rows in 2-D",
+                                       "auxgrid_coarse__restrict_rows in 2-D",
                                        "auxgrid_coarse__merge_rows in 2-D",
                                        "auxgrid_coarse__merge_rows in 3-D",
                                        "auxgrid_coarse__fill_rows in 2-D",
                                        "auxgrid_coarse__fill_rows in 3-D",
                                        "sort__merge_rows in 2-D",
                                        "auxgrid_sort__neighbour_rows in 3-D",
-                                       "auxgrid_wires__wire_rows in 2-D",
-                                       "auxgrid_wires__wire_rows in 3-D",
+                                       "auxgrid_edges__edge_rows in 2-D",
+                                       "auxgrid_edges__edge_rows in 3-D",
                                        "auxgrid_last__factorise_last in 2-D",
                                        "auxgrid_last__solve_last in 2-D",
                                        "cg__decisions in 2-D",
-                                       "cg__turns in 2-D",
+                                       "cg__redirections in 2-D",
                                        "cg__advances in 2-D",
                                        "cg_passes__beginnings in 2-D",
                                        "cg_passes__guesses in 2-D",
                                        "cg_passes__checks in 2-D",
                                        "cg_passes__poisons in 2-D",
                                        "cg_passes__corrections in 2-D",
-                                       "cg_passes__tellings in 2-D",
+                                       "cg_passes__reports in 2-D",
                                        "ppe__bounded_rows in 2-D",
                                        "ppe__settle_rows in 2-D",
                                        "levels__lacking_rows in 2-D",
-                                       "jacobi__invert_rows_there in 2-D"};
+                                       "jacobi__invert_rows_device in 2-D"};
 
 static void assert_have_run(const char *const *loops, size_t count)
 {
@@ -248,9 +248,9 @@ static void scans_of_any_size(void **state)
     (void)state;
     for (int k = 0; k < 8; k++) {
         const int64_t n = size[k];
-        int64_t *values = malloc((size_t)(mps__scan_room(n) + 1) * sizeof *values), sum = 0;
+        int64_t *values = malloc((size_t)(mps__scan_size(n) + 1) * sizeof *values), sum = 0;
         assert_non_null(values);
-        for (int64_t i = 0; i < mps__scan_room(n); i++) values[i] = i % 77 - 20;
+        for (int64_t i = 0; i < mps__scan_size(n); i++) values[i] = i % 77 - 20;
         loops_watch(&device);
         mps__scan(NULL, values, n);
         loops_watch(NULL);
@@ -303,9 +303,9 @@ static void a_difference_is_found(void **state)
         order[k] = k;
         number[k] = k;
     }
-    int64_t *from = ops->room(ops->self, sizeof number);
-    int32_t *places = ops->room(ops->self, sizeof order);
-    fields.to = ops->room(ops->self, sizeof number);
+    int64_t *from = ops->alloc(ops->self, sizeof number);
+    int32_t *places = ops->alloc(ops->self, sizeof order);
+    fields.to = ops->alloc(ops->self, sizeof number);
     fields.from = from;
     fields.order = places;
     assert_true(from && places && fields.to);
@@ -320,19 +320,19 @@ static void a_difference_is_found(void **state)
                           .bytes = sizeof fields,
                           .run = run_other,
                           .host = &fields};
-    assert_int_equal(ops->rows(ops->self, &l), 0);
+    assert_int_equal(ops->launch(ops->self, &l), 0);
     assert_non_null(strstr(device.difference, "gather_8"));
     assert_non_null(strstr(device.difference, "byte 560"));
     assert_int_equal(ops->download(ops->self, number, fields.to, sizeof number), 0);
     for (int k = 0; k < N; k++) assert_int_equal(number[k], k);
-    ops->give(ops->self, from);
-    ops->give(ops->self, places);
-    ops->give(ops->self, fields.to);
+    ops->free(ops->self, from);
+    ops->free(ops->self, places);
+    ops->free(ops->self, fields.to);
 }
 
 /* Loops of steps with a pocket of gas, and of steps before one exists. */
 static const char *const of_gas[] = {
-    "gas_pocket__give_rows in 2-D",        "gas_pocket__give_rows in 3-D",
+    "gas_pocket__set_rows in 2-D",         "gas_pocket__set_rows in 3-D",
     "gas_pocket__push_film_rows in 2-D",   "gas_pocket__push_film_rows in 3-D",
     "gas_pocket__load_rows in 2-D",        "gas_pocket_look__raise_speeds in 2-D",
     "gas_pocket_look__raise_speeds in 3-D"};

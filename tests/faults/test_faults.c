@@ -78,7 +78,7 @@ static int32_t run(const char *folder, bool resume, int to, int32_t place, int32
     said[0] = '\0';
     assert_int_equal(mps_job_config_init(&config, sizeof config), MPS_OK);
     config.folder = folder;
-    config.say = listen;
+    config.print = listen;
     config.resume = resume;
     config.overwrite = !resume;
     config.error = error;

@@ -99,7 +99,7 @@ static void edit(fuzz_input *in, unsigned char *file, size_t size)
     editor_part p;
     int wanted = fuzz_pick(in, 80);
     size_t at = EDITOR_HEAD;
-    while (editor_part_at(file, size, at, &p) && wanted-- > 0) at += EDITOR_PART + p.room;
+    while (editor_part_at(file, size, at, &p) && wanted-- > 0) at += EDITOR_PART + p.capacity;
     if (!editor_part_at(file, size, at, &p) || p.used < 8) return;
     size_t where = ((size_t)fuzz_byte(in) << 8 | fuzz_byte(in)) % p.used;
     const double real = fuzz_real(in, 1);
@@ -126,16 +126,18 @@ static size_t shorten(unsigned char *file, size_t size, int64_t less)
     editor_part p;
     if (!editor_find(file, size, "field id", &p)) return size;
     const int64_t n = p.count, kept = n - less % n;
-    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, &p); at += EDITOR_PART + p.room) {
+    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, &p);
+         at += EDITOR_PART + p.capacity) {
         const int per = p.count == n ? 1 : p.count == 2 * n ? 2 : p.count == 3 * n ? 3 : 0;
         if (!per || strncmp((char *)p.at, "probe", 5) == 0) continue;
-        const size_t old = p.room;
+        const size_t old = p.capacity;
         const int64_t count = kept * per;
         memcpy(p.at + MPS__PART_TITLE + 8, &count, sizeof count);
         editor_part fresh;
         if (!editor_part_at(file, size, at, &fresh)) return size;
-        memmove(fresh.elements + fresh.room, fresh.elements + old, size - at - EDITOR_PART - old);
-        size -= old - fresh.room;
+        memmove(fresh.elements + fresh.capacity, fresh.elements + old,
+                size - at - EDITOR_PART - old);
+        size -= old - fresh.capacity;
         p = fresh;
     }
     return size;

@@ -231,11 +231,11 @@ static void lifetimes()
     }));
     mps::config config;
     config.dp = 0.05;
-    mps::simulation told(config, nullptr, [&](int, const std::string &) { told = still(); });
+    mps::simulation logged(config, nullptr, [&](int, const std::string &) { logged = still(); });
     mps::tank tank;
     tank.size[0] = tank.size[1] = 1.02;
-    told.add(tank);
-    CHECK(told.count(MPS_FLUID) > 0);
+    logged.add(tank);
+    CHECK(logged.count(MPS_FLUID) > 0);
     mps::solid ball;
     ball.name = "ball";
     for (int d = 0; d < 2; d++) ball.lo[d] = 0.2, ball.hi[d] = 0.8;

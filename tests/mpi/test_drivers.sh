@@ -49,7 +49,7 @@ ranks 0 2 "${pieces[@]}" --pieces --overwrite
 [ "$(ls pieces/frames | wc -l)" = 9 ] || fail "--pieces --overwrite: $(ls pieces/frames)"
 rows=1
 rm -rf steps.now
-stopped TERM 2 --out steps.now --frames 4 --pieces # a stop adds no frame: the run that goes on has those of a whole one
+stopped TERM 2 --out steps.now --frames 4 --pieces # a stop adds no frame: the run that continues has those of a whole one
 [ "$(grep -c '\.pvtp"' steps.now/frames.pvd)" = 1 ] || fail "stopped with --pieces: $(cat steps.now/frames.pvd)"
 [ -s steps.now/picture_end.png ] || fail 'stopped with --pieces: no last picture'
 ranks 0 3 "${surge[@]}" --t-end "$(later 0.1 steps.now)" --out steps.now --frames 4 --pieces --resume

@@ -54,7 +54,7 @@ static void *take(void *user, size_t size)
     return malloc(size);
 }
 
-static void give(void *user, void *block)
+static void release(void *user, void *block)
 {
     (void)user;
     free(block);
@@ -68,7 +68,7 @@ static mps_sim *open_dam(const mps_model_ops *model)
     mps_tank tank;
     mps_config_init(&config, sizeof config);
     config.dp = 0.02;
-    config.allocator = (mps_allocator){.alloc = take, .release = give};
+    config.allocator = (mps_allocator){.alloc = take, .release = release};
     mps_tank_init(&tank, sizeof tank);
     tank.size[0] = 0.6;
     tank.size[1] = 0.45;

@@ -37,7 +37,7 @@ static void *take(void *user, size_t size)
     return malloc(size);
 }
 
-static void give(void *user, void *block)
+static void release(void *user, void *block)
 {
     (void)user;
     free(block);
@@ -59,7 +59,7 @@ static void solve_one(const mps_solver_ops *ops, const mps_ppe_problem *problem,
                       const mps_preconditioner_ops *pc, void *pc_self, double *p,
                       mps_ppe_result *result)
 {
-    const mps_allocator allocator = {.alloc = take, .release = give};
+    const mps_allocator allocator = {.alloc = take, .release = release};
     mps_ppe_problem sharp = *problem;
     void *self = ops->user;
     sharp.tolerance = 1e-11;
@@ -111,7 +111,7 @@ static void solve_both(void *self, const mps_ppe_problem *problem, const mps_pre
 static int32_t solve_poor(const mps_solver_ops *ops, const mps_ppe_problem *problem, double *p,
                           int64_t k)
 {
-    const mps_allocator allocator = {.alloc = take, .release = give};
+    const mps_allocator allocator = {.alloc = take, .release = release};
     mps_ppe_result result = {.struct_size = sizeof result};
     int32_t reasons[2];
     void *self = ops->user;

@@ -75,7 +75,7 @@ static void *take(void *user, size_t size)
     return used <= sizeof store ? store + at : NULL;
 }
 
-static void give(void *user, void *block)
+static void release(void *user, void *block)
 {
     (void)user, (void)block;
 }
@@ -97,7 +97,7 @@ static mps_sim *tank(const char *solver, const char *preconditioner)
     used = 0;
     assert_int_equal(mps_config_init(&config, sizeof config), MPS_OK);
     config.dp = 0.05;
-    config.allocator = (mps_allocator){take, give, NULL};
+    config.allocator = (mps_allocator){take, release, NULL};
     config.log = keep_log;
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     assert_int_equal(mps_tank_init(&box, sizeof box), MPS_OK);

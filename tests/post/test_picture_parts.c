@@ -50,7 +50,7 @@ static void outside_of_a_box(void **state)
     scene s = {.dim = 3, .dp = dp};
     hull h;
     int64_t n = 0;
-    assert_true(mps__scene_room(&s, (N + 1) * (N + 1) * (N + 1)));
+    assert_true(mps__scene_reserve(&s, (N + 1) * (N + 1) * (N + 1)));
     for (int k = 0; k < (N + 1) * (N + 1) * (N + 1); k++) {
         const int i[3] = {k % (N + 1), k / (N + 1) % (N + 1), k / (N + 1) / (N + 1)};
         bool face = i[0] == N / 2 && i[1] <= N / 2;
@@ -84,7 +84,7 @@ static void box_of_a_scene(void **state)
     static const float point[4][3] = {{0, 0, 0}, {2, 1, 0}, {1, 1.1f, 0}, {1, 9, 0}};
     static const uint8_t kind[4] = {SCENE_WALL, SCENE_WALL, SCENE_FLUID, SCENE_FLUID};
     scene s = {.dim = 2, .dp = 0.1, .run_lo = {1, 1, 1}};
-    assert_true(mps__scene_room(&s, 4));
+    assert_true(mps__scene_reserve(&s, 4));
     for (int k = 0; k < 4; k++) {
         memcpy(s.x + 3 * k, point[k], sizeof point[k]);
         s.kind[k] = kind[k];

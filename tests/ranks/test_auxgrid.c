@@ -90,7 +90,7 @@ static void first(void *into, const void *from)
 }
 
 /* Through memory that all ranks see. */
-static int share(void *host, double *x)
+static int exchange_halo(void *host, double *x)
 {
     const piece *p = host;
     int32_t none = 0;
@@ -184,7 +184,7 @@ static void build(piece *p, int32_t rank)
                                .rank = rank,
                                .rows = all->n,
                                .owner = owner,
-                               .share = share,
+                               .halo = exchange_halo,
                                .reduce = reduce,
                                .gather = gather,
                                .connect = connect_ranks,

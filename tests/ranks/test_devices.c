@@ -85,7 +85,7 @@ static run *run_scene(const scene *s, int another, int32_t ranks)
     return k;
 }
 
-static void give_back(run *k)
+static void release_all(run *k)
 {
     free(k->records);
     free(k);
@@ -105,12 +105,12 @@ static void compare(const scene *s, int another, int32_t ranks, int what)
     for (int32_t r = 0; r < ranks; r++) {
         const shadow *device = &many->device[r];
         assert_true(device->launches > 100 * s->steps);
-        assert_int_equal(device->rooms, 0);
-        assert_int_equal(shadow_seen(device, "kernels.c", "multiply_rows") > 0, (what & THERE) > 0);
+        assert_int_equal(device->blocks, 0);
+        assert_int_equal(shadow_seen(device, "rows.c", "multiply_rows") > 0, (what & THERE) > 0);
         assert_true(!(what & GRIDS) || shadow_seen(device, "auxgrid_coarse.c", "merge_rows") > 0);
     }
-    give_back(alone);
-    give_back(many);
+    release_all(alone);
+    release_all(many);
 }
 
 /* On two ranks as it is, and on four with jacobi. Its devices solve the equation. */
@@ -197,7 +197,8 @@ static void refuse(void *argument, int32_t rank)
     shadow_attach(&k->device[rank], sim);
     assert_int_equal(mps_step(sim, 1, NULL), MPS_OK);
     if (k->launch == 0)
-        mps__ghosts_leave(&sim->world.ghosts); /* their arrays on the device are created again */
+        mps__ghosts_release_device(
+            &sim->world.ghosts); /* their arrays on the device are created again */
     k->device[rank].refuses = k->launch == 0 && rank == 0;
     k->device[rank].fails_at = rank == 0 && k->launch > 0 ? k->device[rank].launches + k->launch
                                                           : 0;
@@ -221,15 +222,15 @@ static void check_refusals(int launch)
         assert_non_null(strstr(k->error[r][1], "does not open"));
         assert_int_equal(k->status[r][2], r == 0 ? MPS_E_PLUGIN : MPS_E_RANKS);
         assert_non_null(
-            strstr(k->error[r][2], launch == 0 ? "has no room" : "as the test wants it"));
-        assert_int_equal(k->device[r].rooms, 0);
+            strstr(k->error[r][2], launch == 0 ? "has no memory" : "as the test wants it"));
+        assert_int_equal(k->device[r].blocks, 0);
     }
     free(k);
 }
 
 typedef struct shortage {
     kit_engine_team *team;
-    int64_t gives; /* allocations of rank 0 */
+    int64_t allocations; /* allocations of rank 0 */
     shadow device[2];
     mps_status status[2];
     char error[2][TEXT];
@@ -242,22 +243,22 @@ static void run_short(void *argument, int32_t rank)
     assert_int_equal(scene_start(scene_named("dam_2d"), k->team, rank, &sim), MPS_OK);
     shadow_attach(&k->device[rank], sim);
     k->device[rank].refuses = rank == 0;
-    k->device[rank].gives = k->gives;
+    k->device[rank].allocations = k->allocations;
     k->status[rank] = mps_step(sim, 1, NULL);
     snprintf(k->error[rank], TEXT, "%s", mps_sim_error(sim));
     mps_sim_destroy(sim);
 }
 
 /* Rank 0 runs out of device memory at each allocation of a step in turn: both ranks report it. */
-static void room_for_a_part(void **state)
+static void memory_for_a_part(void **state)
 {
     int shortages = 0;
     bool enough = false;
     (void)state;
-    for (int64_t gives = 0; gives < 1000 && !enough; gives += 3, shortages++) {
+    for (int64_t allocations = 0; allocations < 1000 && !enough; allocations += 3, shortages++) {
         shortage *k = calloc(1, sizeof *k);
         assert_non_null(k);
-        k->gives = gives;
+        k->allocations = allocations;
         k->team = kit_engine_create(2, 0);
         kit_engine_run(k->team, run_short, k);
         kit_engine_destroy(k->team);
@@ -267,7 +268,7 @@ static void room_for_a_part(void **state)
             assert_int_equal(k->status[1], MPS_E_RANKS);
             assert_non_null(strstr(k->error[1], "rank 0 of 2"));
         }
-        for (int r = 0; r < 2; r++) assert_int_equal(k->device[r].rooms, 0);
+        for (int r = 0; r < 2; r++) assert_int_equal(k->device[r].blocks, 0);
         free(k);
     }
     assert_true(enough && shortages > 10);
@@ -284,7 +285,7 @@ static void devices_of_all_or_none(void **state)
 int main(void)
 {
     struct CMUnitTest tests[FIRST + SCENES] = {
-        cmocka_unit_test(devices_of_all_or_none), cmocka_unit_test(room_for_a_part),
+        cmocka_unit_test(devices_of_all_or_none), cmocka_unit_test(memory_for_a_part),
         cmocka_unit_test(pressures_without_a_level), cmocka_unit_test(several_grids),
         cmocka_unit_test(gas_without_a_pocket)};
     for (int k = 0; k < SCENES; k++)

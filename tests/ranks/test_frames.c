@@ -50,9 +50,9 @@ static void write_frames(run *k, mps_sim *sim, int32_t rank, mps_frames *frames)
         if (status >= 0) status = mps_step(sim, 1, NULL);
     }
     note(k, sim, rank, status);
-    if (!k->team || mps_particles_gather(sim) < 0) return;
+    if (!k->team || mps_particles_collect(sim) < 0) return;
     k->wrong[rank] = mps_frames_write(frames);
-    mps_particles_gather_end(sim);
+    mps_particles_collect_end(sim);
 }
 
 static void run_rank(void *argument, int32_t rank)
@@ -217,7 +217,7 @@ static void whole_frames_need_all(void **state)
     run k = {.kinds = 0};
     take(&k, 2);
     assert_int_equal(k.status[0][0], MPS_E_STATE);
-    assert_non_null(strstr(k.error[0], "mps_particles_gather()"));
+    assert_non_null(strstr(k.error[0], "mps_particles_collect()"));
     assert_int_equal(k.wrong[0], MPS_OK);
     assert_int_equal(k.wrong[1], MPS_OK);
     remove_folder(&k);

@@ -110,9 +110,9 @@ static mps_status check_share(mps__ghosts *g, int64_t *wrong)
         s->p[i] = g->ghost[i] ? -1 : 3.0 * (double)s->id[i];
         s->phase[i] = g->ghost[i] ? -1 : (int32_t)s->id[i] % 11;
     }
-    const mps__shared both[] = {{.values = s->p, .bytes = sizeof *s->p},
-                                {.values = s->phase, .bytes = sizeof *s->phase}};
-    MPS__TRY(mps__ghosts_share(g, both, 2));
+    const mps__halo_array both[] = {{.values = s->p, .bytes = sizeof *s->p},
+                                    {.values = s->phase, .bytes = sizeof *s->phase}};
+    MPS__TRY(mps__ghosts_exchange(g, both, 2));
     for (int64_t i = 0; i < s->n; i++)
         *wrong += s->p[i] != 3.0 * (double)s->id[i] || s->phase[i] != (int32_t)s->id[i] % 11;
     return MPS_OK;

@@ -51,8 +51,8 @@ static mps_status write_frame(mps_sim *sim, const char *folder)
 
 static mps_status gather(mps_sim *sim)
 {
-    const mps_status status = mps_particles_gather(sim);
-    if (status == MPS_OK) mps_particles_gather_end(sim);
+    const mps_status status = mps_particles_collect(sim);
+    if (status == MPS_OK) mps_particles_collect_end(sim);
     return status;
 }
 
@@ -68,11 +68,11 @@ static mps_status use(mps_sim *sim, const run *k)
     mps_status status = mps_step(sim, 1, NULL);
     for (int pass = 0; pass < 2 && status >= 0; pass++) {
         status = mps_step(sim, 1, NULL);
-        const bool room = k->scene->preset[0] == 'i'; /* gas fills the rest */
-        if (status >= 0 && room) status = mps_particles_add(sim, &block, &id);
+        const bool enough = k->scene->preset[0] == 'i'; /* gas fills the rest */
+        if (status >= 0 && enough) status = mps_particles_add(sim, &block, &id);
         if (status >= 0) status = write_frame(sim, k->folder);
         if (status >= 0) status = mps_checkpoint_write(sim, k->file);
-        if (status >= 0 && room) status = mps_particles_remove(sim, 1, &id);
+        if (status >= 0 && enough) status = mps_particles_remove(sim, 1, &id);
         if (status >= 0) status = gather(sim);
     }
     mps_energy energy; /* a failure after the last message is heard in the next call */

@@ -144,17 +144,17 @@ static void gathering(mps_sim *sim, char *fault)
 {
     mps_lease lease;
     mps_lease_init(&lease, sizeof lease);
-    EXPECT(mps_particles_gather_end(sim), MPS_E_STATE, "not gathered");
+    EXPECT(mps_particles_collect_end(sim), MPS_E_STATE, "not collected");
     EXPECT(mps_lease_begin(sim, "velocity", MPS_READ, &lease), MPS_OK, "");
-    EXPECT(mps_particles_gather(sim), MPS_E_BUSY, "lease");
+    EXPECT(mps_particles_collect(sim), MPS_E_BUSY, "lease");
     EXPECT(mps_lease_end(sim, &lease), MPS_OK, "");
-    EXPECT(mps_particles_gather(sim), MPS_OK, "");
-    EXPECT(mps_particles_gather(sim), MPS_E_STATE, "gathered already");
+    EXPECT(mps_particles_collect(sim), MPS_OK, "");
+    EXPECT(mps_particles_collect(sim), MPS_E_STATE, "collected already");
     EXPECT(mps_step(sim, 1, NULL), MPS_E_STATE, "gather");
     EXPECT(mps_lease_begin(sim, "velocity", MPS_READ, &lease), MPS_OK, "");
-    EXPECT(mps_particles_gather_end(sim), MPS_E_BUSY, "lease");
+    EXPECT(mps_particles_collect_end(sim), MPS_E_BUSY, "lease");
     EXPECT(mps_lease_end(sim, &lease), MPS_OK, "");
-    EXPECT(mps_particles_gather_end(sim), MPS_OK, "");
+    EXPECT(mps_particles_collect_end(sim), MPS_OK, "");
 }
 
 static void run_rank(void *argument, int32_t rank)
@@ -187,8 +187,8 @@ static void calls(void **state)
     for (int r = 0; r < RANKS; r++) assert_string_equal(k.fault[r], "");
     assert_int_equal(mps_sim_ranks(NULL, NULL, NULL), MPS_E_ARG);
     assert_int_equal(mps_sim_ranks_set(NULL, NULL), MPS_E_ARG);
-    assert_int_equal(mps_particles_gather(NULL), MPS_E_ARG);
-    assert_int_equal(mps_particles_gather_end(NULL), MPS_E_ARG);
+    assert_int_equal(mps_particles_collect(NULL), MPS_E_ARG);
+    assert_int_equal(mps_particles_collect_end(NULL), MPS_E_ARG);
     assert_int_equal(mps_particles_ghosts(NULL, NULL), MPS_E_ARG);
 }
 

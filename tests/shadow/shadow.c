@@ -102,23 +102,23 @@ static size_t pages(uint64_t bytes)
 /* The first gap of this number of bytes, at the beginning or after an allocation. */
 static char *gap_for(const shadow *s, size_t bytes)
 {
-    for (int after = -1; after < SHADOW_ROOMS; after++) {
-        char *begin = after < 0 ? s->arena : s->room[after].begin + s->room[after].bytes;
-        bool is_free = after < 0 || s->room[after].begin;
-        for (int k = 0; is_free && k < SHADOW_ROOMS; k++)
-            is_free = !s->room[k].begin || begin >= s->room[k].begin + s->room[k].bytes ||
-                      begin + bytes <= s->room[k].begin;
+    for (int after = -1; after < SHADOW_BLOCKS; after++) {
+        char *begin = after < 0 ? s->arena : s->block[after].begin + s->block[after].bytes;
+        bool is_free = after < 0 || s->block[after].begin;
+        for (int k = 0; is_free && k < SHADOW_BLOCKS; k++)
+            is_free = !s->block[k].begin || begin >= s->block[k].begin + s->block[k].bytes ||
+                      begin + bytes <= s->block[k].begin;
         if (is_free) return begin;
     }
     return NULL;
 }
 
-static void *room(void *self, uint64_t bytes)
+static void *take_block(void *self, uint64_t bytes)
 {
     shadow *s = self;
     int k = 0;
     s->why = NULL;
-    if (s->refuses && s->gives-- <= 0) return NULL;
+    if (s->refuses && s->allocations-- <= 0) return NULL;
     if (!s->arena)
         s->arena = s->arena_end = mmap(NULL, ARENA, PROT_NONE,
                                        MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -131,22 +131,22 @@ static void *room(void *self, uint64_t bytes)
                      PROT_READ | PROT_WRITE);
         s->arena_end = begin + pages(bytes);
     }
-    while (k < SHADOW_ROOMS && s->room[k].begin) k++;
-    assert_true(k < SHADOW_ROOMS);
-    s->room[k].begin = begin;
-    s->room[k].bytes = pages(bytes);
-    s->rooms++;
+    while (k < SHADOW_BLOCKS && s->block[k].begin) k++;
+    assert_true(k < SHADOW_BLOCKS);
+    s->block[k].begin = begin;
+    s->block[k].bytes = pages(bytes);
+    s->blocks++;
     return begin;
 }
 
-static void give(void *self, void *begin)
+static void release(void *self, void *begin)
 {
     shadow *s = self;
-    for (int k = 0; k < SHADOW_ROOMS; k++) {
-        if (s->room[k].begin != begin) continue;
-        s->room[k].begin = NULL;
-        s->rooms--;
-        if (s->rooms > 0) return;
+    for (int k = 0; k < SHADOW_BLOCKS; k++) {
+        if (s->block[k].begin != begin) continue;
+        s->block[k].begin = NULL;
+        s->blocks--;
+        if (s->blocks > 0) return;
         munmap(s->arena, ARENA);
         s->arena = s->arena_end = NULL;
         s->open = false;
@@ -156,18 +156,18 @@ static void give(void *self, void *begin)
 }
 
 /* The allocation of an address, -1: host memory. */
-static int room_of(const shadow *s, const void *address)
+static int block_of(const shadow *s, const void *address)
 {
-    for (int k = 0; k < SHADOW_ROOMS; k++)
-        if (s->room[k].begin && (const char *)address >= s->room[k].begin &&
-            (const char *)address < s->room[k].begin + s->room[k].bytes)
+    for (int k = 0; k < SHADOW_BLOCKS; k++)
+        if (s->block[k].begin && (const char *)address >= s->block[k].begin &&
+            (const char *)address < s->block[k].begin + s->block[k].bytes)
             return k;
     return -1;
 }
 
 static void protect(const shadow *s, int k, int access)
 {
-    if (s->room[k].begin && !s->open) mprotect(s->room[k].begin, s->room[k].bytes, access);
+    if (s->block[k].begin && !s->open) mprotect(s->block[k].begin, s->block[k].bytes, access);
 }
 
 static void open_all(shadow *s, bool open)
@@ -189,8 +189,8 @@ static int fails(shadow *s)
 static int upload(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
-    const int k = room_of(s, to);
-    assert_true(k >= 0 && room_of(s, from) < 0);
+    const int k = block_of(s, to);
+    assert_true(k >= 0 && block_of(s, from) < 0);
     if (s->dead) return fails(s);
     s->uploads++;
     s->bytes_up += (int64_t)bytes;
@@ -203,8 +203,8 @@ static int upload(void *self, void *to, const void *from, uint64_t bytes)
 static int download(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
-    const int k = room_of(s, from);
-    assert_true(k >= 0 && room_of(s, to) < 0);
+    const int k = block_of(s, from);
+    assert_true(k >= 0 && block_of(s, to) < 0);
     s->downloads++;
     s->bytes_down += (int64_t)bytes;
     if (s->dead || s->downloads == s->loses_at) {
@@ -220,7 +220,7 @@ static int download(void *self, void *to, const void *from, uint64_t bytes)
 static int clear(void *self, void *to, uint64_t bytes)
 {
     shadow *s = self;
-    const int k = room_of(s, to);
+    const int k = block_of(s, to);
     assert_true(k >= 0);
     if (s->dead) return fails(s);
     protect(s, k, PROT_READ | PROT_WRITE);
@@ -232,7 +232,7 @@ static int clear(void *self, void *to, uint64_t bytes)
 static int copy(void *self, void *to, const void *from, uint64_t bytes)
 {
     shadow *s = self;
-    const int a = room_of(s, to), b = room_of(s, from);
+    const int a = block_of(s, to), b = block_of(s, from);
     assert_true(a >= 0 && b >= 0);
     if (s->dead) return fails(s);
     protect(s, a, PROT_READ | PROT_WRITE);
@@ -244,13 +244,13 @@ static int copy(void *self, void *to, const void *from, uint64_t bytes)
 }
 
 /* Integers get a number that is no region, no condition and no row. */
-static void outdated(void *self, void *array, uint64_t bytes, uint32_t number)
+static void invalidated(void *self, void *array, uint64_t bytes, uint32_t number)
 {
     const int32_t poison = INT32_MIN + 1;
     const double nan = NAN;
     shadow *s = self;
-    const int k = room_of(s, array);
-    s->outdated++;
+    const int k = block_of(s, array);
+    s->invalidated++;
     if (k >= 0) protect(s, k, PROT_READ | PROT_WRITE);
     for (size_t at = 0; at < bytes; at += number) {
         const void *value = number == 8 ? (const void *)&nan : &poison;
@@ -325,7 +325,7 @@ static int gather(void *self, const mps_launch *l, void *to)
     shadow *s = self;
     mps_exact sum[MPS_PARALLEL_VALUES] = {{{0}, 0, 0}};
     double maximum[MPS_PARALLEL_VALUES];
-    const int k = room_of(s, to);
+    const int k = block_of(s, to);
     assert_true(k >= 0);
     for (int m = 0; m < l->maxima; m++) maximum[m] = -INFINITY;
     if (stops(s)) return fails(s);
@@ -355,18 +355,18 @@ void shadow_attach(shadow *s, mps_sim *sim)
                           .api = MPS_DEVICE_API,
                           .name = "shadow",
                           .self = s,
-                          .room = room,
-                          .give = give,
+                          .alloc = take_block,
+                          .free = release,
                           .upload = upload,
                           .download = download,
                           .clear = clear,
                           .copy = copy,
-                          .rows = rows,
-                          .values = values,
-                          .gather = gather,
+                          .launch = rows,
+                          .reduce = values,
+                          .reduce_async = gather,
                           .wait = wait_for,
                           .failure = failure,
-                          .outdated = outdated}};
+                          .invalidated = invalidated}};
     if (sim->context.allocator.alloc == heap_alloc) s->heap = sim->context.allocator.user;
     assert_int_equal(mps_sim_device_set(sim, &s->ops), MPS_OK);
 }

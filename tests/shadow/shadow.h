@@ -7,29 +7,29 @@
 #include "sim.h"
 #include <mps/device.h>
 
-enum { SHADOW_ROOMS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 6, SHADOW_RANKS = 4 };
+enum { SHADOW_BLOCKS = 512, SHADOW_LOOPS = 4096, SHADOW_CLOSED = 6, SHADOW_RANKS = 4 };
 
 typedef struct shadow {
     mps_device_ops ops;
-    int64_t rooms;                        /* that were not given back */
-    int64_t uploads, downloads, outdated; /* so many */
-    int64_t bytes_up, bytes_down;         /* of all copies, with sums and maxima */
-    int64_t launches;                     /* loops */
-    int32_t ended;                        /* calls of a function of the test's */
-    bool refuses;                         /* an allocation is refused, */
-    int64_t gives;                        /* after so many pieces of it */
-    bool dead;                            /* all fails that may */
-    const char *why;                      /* what failed last; other calls forget it */
-    int64_t fails_at, loses_at;           /* launch, download that fails; 0: none */
-    int64_t dies_at;                      /* launch from which on all does */
-    char *arena, *arena_end;              /* memory of all allocations; NULL: none */
-    struct shadow_memory *heap;           /* of the handle; NULL: it is never closed */
-    bool open;                            /* it is not closed: the loop before has run often */
-    int32_t seen[SHADOW_LOOPS];           /* launches of each loop, by its name */
+    int64_t blocks;                          /* that were not given back */
+    int64_t uploads, downloads, invalidated; /* so many */
+    int64_t bytes_up, bytes_down;            /* of all copies, with sums and maxima */
+    int64_t launches;                        /* loops */
+    int32_t ended;                           /* calls of a function of the test's */
+    bool refuses;                            /* an allocation is refused, */
+    int64_t allocations;                     /* after so many pieces of it */
+    bool dead;                               /* all fails that may */
+    const char *why;                         /* what failed last; other calls forget it */
+    int64_t fails_at, loses_at;              /* launch, download that fails; 0: none */
+    int64_t dies_at;                         /* launch from which on all does */
+    char *arena, *arena_end;                 /* memory of all allocations; NULL: none */
+    struct shadow_memory *heap;              /* of the handle; NULL: it is never closed */
+    bool open;                               /* it is not closed: the loop before has run often */
+    int32_t seen[SHADOW_LOOPS];              /* launches of each loop, by its name */
     struct {
         char *begin;
         size_t bytes;
-    } room[SHADOW_ROOMS];
+    } block[SHADOW_BLOCKS];
 } shadow;
 
 /* A handle that was just made takes its arrays from memory that is closed while loops run on a

@@ -4,7 +4,7 @@
 #ifndef SHADOW_SOLUTIONS_H
 #define SHADOW_SOLUTIONS_H
 
-#include "engine.h"
+#include "device_memory.h"
 #include "sim.h"
 #include "solver_kit.h"
 #include <math.h>
@@ -113,19 +113,20 @@ static inline void without_weights(kit_system *s)
 }
 
 static inline void same_answers(const char *what, const char *preconditioner, const answer *host,
-                                const answer *there, int64_t n)
+                                const answer *on_device, int64_t n)
 {
     /* NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): bytes count */
-    if (memcmp(&host->result, &there->result, sizeof host->result) != 0)
+    if (memcmp(&host->result, &on_device->result, sizeof host->result) != 0)
         fail_msg("%s, %s: host reason %d, %d iterations, residual %.17g, divergence %.17g; device "
                  "%d, %d, %.17g, %.17g",
                  what, preconditioner, (int)host->result.reason, (int)host->result.iterations,
-                 host->result.residual, host->result.divergence, (int)there->result.reason,
-                 (int)there->result.iterations, there->result.residual, there->result.divergence);
-    assert_int_equal(host->status, there->status);
-    assert_string_equal(host->error, there->error);
-    assert_string_equal(host->log, there->log);
-    if (memcmp(host->p, there->p, (size_t)n * sizeof *host->p) != 0)
+                 host->result.residual, host->result.divergence, (int)on_device->result.reason,
+                 (int)on_device->result.iterations, on_device->result.residual,
+                 on_device->result.divergence);
+    assert_int_equal(host->status, on_device->status);
+    assert_string_equal(host->error, on_device->error);
+    assert_string_equal(host->log, on_device->log);
+    if (memcmp(host->p, on_device->p, (size_t)n * sizeof *host->p) != 0)
         fail_msg("%s, %s: pressures differ", what, preconditioner);
 }
 
@@ -133,7 +134,7 @@ static inline void same_answers(const char *what, const char *preconditioner, co
 static inline void compare_solution(mps_sim *sim, const kit_lattice *lattice, const solution *c,
                                     const char *preconditioner)
 {
-    mps__device *d = &sim->world.host.twins.device;
+    mps__device *d = &sim->world.runner.memory.device;
     kit_system *s = kit_lattice_system(lattice);
     mps_solver_limits limits = {.struct_size = sizeof limits,
                                 .max_iterations = c->most,
@@ -144,16 +145,16 @@ static inline void compare_solution(mps_sim *sim, const kit_lattice *lattice, co
     if (c->spoil) c->spoil(s);
     assert_int_equal(mps__solvers_set_limits(&sim->world.solvers, &limits), MPS_OK);
     for (int k = 0; k < 2; k++) {
-        answer host, there;
+        answer host, on_device;
         solve(sim, NULL, &s->problem, c->first, &host);
-        solve(sim, d, &s->problem, c->first, &there);
-        assert_true(d->info.launches > 0 && !d->unless);
-        same_answers(c->what, preconditioner, &host, &there, s->problem.n);
+        solve(sim, d, &s->problem, c->first, &on_device);
+        assert_true(d->info.launches > 0 && !d->cancel);
+        same_answers(c->what, preconditioner, &host, &on_device, s->problem.n);
         if (c->reason >= 0 && host.result.reason != c->reason)
             fail_msg("%s, %s: reason %d, not %d: %s", c->what, preconditioner,
                      (int)host.result.reason, (int)c->reason, host.error);
         free(host.p);
-        free(there.p);
+        free(on_device.p);
     }
     kit_system_free(s);
 }

@@ -19,10 +19,10 @@ static void tables_are_checked(void **state)
     bad.name = "";
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "name");
     bad = s.ops;
-    bad.values = NULL;
+    bad.reduce = NULL;
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "lacks a function");
     bad = s.ops;
-    bad.gather = NULL;
+    bad.reduce_async = NULL;
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, &bad), MPS_E_ARG, "lacks a function");
     bad = s.ops;
     bad.struct_size = 8;
@@ -31,7 +31,7 @@ static void tables_are_checked(void **state)
     ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
     assert_string_equal(shadow_counts(sim).name, "shadow");
     mps_sim_destroy(sim);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 static void leases_refuse(void **state)
@@ -46,7 +46,7 @@ static void leases_refuse(void **state)
     ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_BUSY, "lease");
     ASSERT_OK(sim, mps_lease_end(sim, &lease));
     ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
     assert_null(shadow_counts(sim).name);
     mps_sim_destroy(sim);
     sim = new_sim(2, 0.1);
@@ -191,10 +191,10 @@ static void plates_hide_on_the_device(void **state)
     for (int k = 0; k < 40 && l->searches < 6; k++) {
         go(host, 1);
         go(sim, 1);
-        assert_true(sim->world.host.twins.listed == l->searches);
+        assert_true(sim->world.runner.memory.listed == l->searches);
         same(host, sim);
     }
-    assert_true(l->searches >= 6 && sim->world.lists.screens.seers > 0);
+    assert_true(l->searches >= 6 && sim->world.lists.occluders.near_plates > 0);
     mps_sim_destroy(host);
     mps_sim_destroy(sim);
 }
@@ -203,9 +203,10 @@ static void plates_hide_on_the_device(void **state)
 
 static void note(void *user, int level, const char *text)
 {
-    char *told = user;
+    char *logged = user;
     (void)level;
-    if (strstr(text, "on the host")) snprintf(told + strlen(told), 512 - strlen(told), "%s;", text);
+    if (strstr(text, "on the host"))
+        snprintf(logged + strlen(logged), 512 - strlen(logged), "%s;", text);
 }
 
 /* Launches of an iteration of conjugate gradients with auxgrid of one grid: the product, three
@@ -240,16 +241,16 @@ static void costs(void **state)
     for (size_t k = 0; k < sizeof table / sizeof table[0]; k++) {
         const cost *c = &table[k];
         mps_sim *sim = unwatched(c->preset, c->dim);
-        char told[512] = "";
+        char logged[512] = "";
         shadow s;
         sim->context.log = note;
-        sim->context.log_user = told;
+        sim->context.log_user = logged;
         shadow_attach(&s, sim);
         go(sim, 5);
-        const int32_t before = shadow_seen(&s, "cg.c", "turns");
+        const int32_t before = shadow_seen(&s, "cg.c", "redirections");
         ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
         mps_device_info i = shadow_counts(sim);
-        const int32_t queued = shadow_seen(&s, "cg.c", "turns") - before;
+        const int32_t queued = shadow_seen(&s, "cg.c", "redirections") - before;
         i.launches -= (int64_t)LAUNCHES * queued;
         i.waits -= queued / AT_ONCE;
         assert_true(queued >= AT_ONCE && queued % AT_ONCE == 0);
@@ -263,7 +264,7 @@ static void costs(void **state)
         assert_in("bytes up", c, i.bytes_up, c->up);
         assert_in("bytes down", c, i.bytes_down, c->down);
         assert_true(i.bytes_held > i.bytes_up);
-        assert_string_equal(told, ""); /* of passes on the host */
+        assert_string_equal(logged, ""); /* of passes on the host */
         assert_int_equal(i.host_calls, 0);
         mps_sim_destroy(sim);
     }
@@ -275,21 +276,21 @@ static void solutions_on_the_host_are_told(void **state)
     (void)state;
     for (int k = 0; k < 2; k++) {
         mps_sim *sim = unwatched("imps", 2);
-        char told[512] = "";
+        char logged[512] = "";
         shadow s;
         if (k == 0)
             ASSERT_OK(sim, mps_solver_use(sim, "sundials.klu", NULL));
         else
             ASSERT_OK(sim, mps_load_watch(sim, MPS_LOAD_MASS));
         sim->context.log = note;
-        sim->context.log_user = told;
+        sim->context.log_user = logged;
         shadow_attach(&s, sim);
         go(sim, 1);
-        assert_non_null(strstr(told, "the pressure equation is solved on the host"));
-        assert_non_null(strstr(told, k == 0 ? "solver 'sundials.klu'" : "the added mass"));
-        told[0] = 0;
+        assert_non_null(strstr(logged, "the pressure equation is solved on the host"));
+        assert_non_null(strstr(logged, k == 0 ? "solver 'sundials.klu'" : "the added mass"));
+        logged[0] = 0;
         go(sim, 1);
-        assert_null(strstr(told, "the pressure equation"));
+        assert_null(strstr(logged, "the pressure equation"));
         mps_sim_destroy(sim);
     }
 }

@@ -104,7 +104,7 @@ static void scenes_with_gas(void **state)
         assert_true(with > 2 && (without > 2) == (g->slot > 0));
         mps_sim_destroy(host);
         mps_sim_destroy(sim);
-        assert_int_equal(s.rooms, 0);
+        assert_int_equal(s.blocks, 0);
     }
 }
 

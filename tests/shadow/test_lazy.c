@@ -200,7 +200,7 @@ static void snapshots(mps_sim *host, mps_sim *sim)
 
 static void take_off(mps_sim *host, mps_sim *sim)
 {
-    const mps_device_ops ops = sim->world.host.twins.device.ops;
+    const mps_device_ops ops = sim->world.runner.memory.device.ops;
     ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
     go(host, 2);
     go(sim, 2);
@@ -246,7 +246,7 @@ static void questions(void **state)
         same(host, sim);
         mps_sim_destroy(host);
         mps_sim_destroy(sim);
-        assert_int_equal(s.rooms, 0);
+        assert_int_equal(s.blocks, 0);
     }
 }
 
@@ -380,7 +380,7 @@ static void die(mps_sim *host, mps_sim *sim, shadow *s, int way, int64_t launch)
     if (way == 0) ASSERT_OK(sim, mps_checkpoint_read(sim, path));
     if (way == 1) ASSERT_OK(sim, mps_snapshot_restore(snapshot));
     ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
-    assert_null(sim->world.host.twins.device.ops.name);
+    assert_null(sim->world.runner.memory.device.ops.name);
     mps_snapshot_destroy(snapshot);
     go(host, 4);
     go(sim, 4);
@@ -399,7 +399,7 @@ static void dead_devices(void **state)
         die(host, sim, &s, k / 6, 1 + 21 * (k % 6));
         mps_sim_destroy(host);
         mps_sim_destroy(sim);
-        assert_int_equal(s.rooms, 0);
+        assert_int_equal(s.blocks, 0);
     }
 }
 

@@ -211,14 +211,14 @@ static mps_status set_kernel(dice *d, mps_sim *sim)
 /* For the host only: threads of the other one would wait in memory that the shadow protects. */
 static mps_status set_threads(dice *d, mps_sim *sim)
 {
-    const bool host = !sim->world.host.twins.device.ops.name;
+    const bool host = !sim->world.runner.memory.device.ops.name;
     return host ? mps_threads_set(sim, 1 + pick(d, 2)) : MPS_OK;
 }
 
 /* Without a device for some steps, and with it again. */
 static mps_status change_device(dice *d, mps_sim *sim)
 {
-    const mps_device_ops *ops = &sim->world.host.twins.device.ops, kept = *ops;
+    const mps_device_ops *ops = &sim->world.runner.memory.device.ops, kept = *ops;
     (void)d;
     if (!ops->name) return MPS_OK; /* the host */
     ASSERT_OK(sim, mps_sim_device_set(sim, NULL));
@@ -533,7 +533,7 @@ static void play(int64_t number)
     same(side[0], side[1]);
     same_memory(side[0], side[1]);
     for (int k = 0; k < 2; k++) mps_sim_destroy(side[k]);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 static void list_models(void)

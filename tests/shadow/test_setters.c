@@ -2,7 +2,7 @@
 /* What public functions that set something copy between the host and a device: what they change,
  * and no other field. A coupled run, which sets something before each step, copies what the same
  * run without setters copies. */
-#include "engine.h"
+#include "device_memory.h"
 #include "setter_calls.h"
 #include <dirent.h>
 #include <stdlib.h>
@@ -178,7 +178,7 @@ static void check_setter(const setter *r, int32_t dim, traffic plain)
     same_memory(host, sim);
     mps_sim_destroy(sim);
     mps_sim_destroy(host);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 static void setters_copy_what_they_change(void **state)
@@ -361,7 +361,7 @@ static void couple(int32_t dim, int k)
     mps_sim_destroy(sim);
     mps_sim_destroy(alone);
     mps_sim_destroy(host);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 static void coupled_runs(void **state)

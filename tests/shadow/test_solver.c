@@ -14,7 +14,7 @@ static void solutions(void **state)
     shadow_attach(&s, sim);
     compare_solutions(sim, 1);
     mps_sim_destroy(sim);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 /* ---- grids ---- */
@@ -70,16 +70,16 @@ static void grids(void **state)
     for (size_t l = 0; l < sizeof lattices / sizeof lattices[0]; l++)
         for (size_t c = 0; c < sizeof cases / sizeof cases[0]; c++) {
             const int32_t made = shadow_seen(&s, "auxgrid_coarse.c", "merge_rows"),
-                          wired = shadow_seen(&s, "auxgrid_wires.c", "wire_rows");
+                          edges_before = shadow_seen(&s, "auxgrid_edges.c", "edge_rows");
             compare_solution(sim, &lattices[l], &cases[c], "auxgrid");
             const bool coarse = shadow_seen(&s, "auxgrid_coarse.c", "merge_rows") > made,
-                       wires = shadow_seen(&s, "auxgrid_wires.c", "wire_rows") > wired;
-            if (!coarse || wires != (lattices[l].contrast > 1))
-                fail_msg("lattice %d, %s: coarser grids %d, wires %d", (int)l, cases[c].what,
-                         coarse, wires);
+                       edges = shadow_seen(&s, "auxgrid_edges.c", "edge_rows") > edges_before;
+            if (!coarse || edges != (lattices[l].contrast > 1))
+                fail_msg("lattice %d, %s: coarser grids %d, edges %d", (int)l, cases[c].what,
+                         coarse, edges);
         }
     mps_sim_destroy(sim);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 /* ---- what an iteration costs ---- */
@@ -100,7 +100,7 @@ typedef struct cost {
 static void counts_of(mps_sim *sim, const cost *c, int32_t most, int64_t counts[2])
 {
     kit_system *s = kit_lattice_system(&c->lattice);
-    mps__device *d = &sim->world.host.twins.device;
+    mps__device *d = &sim->world.runner.memory.device;
     mps_solver_limits limits = {
         .struct_size = sizeof limits, .max_iterations = most, .tolerance = 1e-15};
     answer a;

@@ -91,10 +91,10 @@ static void compare(mps_sim *host, mps_sim *sim)
     for (int k = 0; k < FAILURES; k++) assert_string_equal(failed[0][k].text, failed[1][k].text);
     same(host, sim);
     same_memory(host, sim);
-    assert_true(s.rooms > 10 && s.uploads > 50 && s.downloads > 100 && s.outdated > 100);
+    assert_true(s.blocks > 10 && s.uploads > 50 && s.downloads > 100 && s.invalidated > 100);
     mps_sim_destroy(host);
     mps_sim_destroy(sim);
-    assert_int_equal(s.rooms, 0);
+    assert_int_equal(s.blocks, 0);
 }
 
 static void presets(void **state)
@@ -143,17 +143,18 @@ static void liquid_behind_a_wall(void **state)
     (void)state;
     for (int32_t dim = 2; dim <= 3; dim++) {
         mps_sim *host = spilling(dim), *sim = spilling(dim);
-        int told = 0;
+        int logged = 0;
         shadow s;
         shadow_attach(&s, sim);
         for (int k = 0; k < 30; k++) {
-            told += sim->world.ahead.most[MPS__AHEAD_SPILLED] > 0 && sim->world.state.lost == 0;
+            logged += sim->world.next_flags.most[MPS__NEXT_SPILLED] > 0 &&
+                      sim->world.state.lost == 0;
             go(host, 1);
             go(sim, 1);
             same(host, sim);
         }
         assert_int_equal(sim->world.state.lost, 1);
-        assert_int_equal(told, 1);
+        assert_int_equal(logged, 1);
         mps_sim_destroy(host);
         mps_sim_destroy(sim);
     }
@@ -189,8 +190,8 @@ static void drops_are_free(void **state)
         for (int k = 0; k < 12; k++) {
             go(host, 1);
             go(sim, 1);
-            assert_int_equal(host->world.host.sets.count, sim->world.host.sets.count);
-            sets += sim->world.host.sets.count > 1;
+            assert_int_equal(host->world.runner.sets.count, sim->world.runner.sets.count);
+            sets += sim->world.runner.sets.count > 1;
             same(host, sim);
         }
         same_memory(host, sim);
@@ -256,7 +257,7 @@ static void other_solutions(void **state)
         same_memory(pair[0], pair[1]);
         mps_sim_destroy(pair[0]);
         mps_sim_destroy(pair[1]);
-        assert_int_equal(s.rooms, 0);
+        assert_int_equal(s.blocks, 0);
     }
 }
 
@@ -395,7 +396,7 @@ static void an_undeclared_use_is_found(void **state)
 }
 
 /* A step without enough device memory fails and changes nothing; the next has enough. */
-static void without_room(void **state)
+static void without_memory(void **state)
 {
     mps_sim *host = rolling("imps", 2), *sim = rolling("imps", 2);
     shadow s;
@@ -413,7 +414,7 @@ int main(void)
         cmocka_unit_test(other_scenes),    cmocka_unit_test(liquid_behind_a_wall),
         cmocka_unit_test(other_solutions), cmocka_unit_test(all_models),
         cmocka_unit_test(plugins),         cmocka_unit_test(an_undeclared_use_is_found),
-        cmocka_unit_test(without_room),
+        cmocka_unit_test(without_memory),
     };
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

@@ -15,7 +15,7 @@ typedef struct editor_part {
     unsigned char *elements;
     uint32_t bytes; /* of an element */
     int64_t count;
-    size_t used, room; /* bytes of the elements, without and with the zeros behind them */
+    size_t used, capacity; /* bytes of the elements, without and with the zeros behind them */
 } editor_part;
 
 /* The section at an offset; 0 if none is within `size`. */
@@ -29,14 +29,15 @@ static inline int editor_part_at(unsigned char *file, size_t size, size_t at, ed
     const size_t left = size - at - EDITOR_PART;
     if (p->count < 0 || p->bytes == 0 || (uint64_t)p->count > left / p->bytes) return 0;
     p->used = (size_t)p->count * p->bytes;
-    p->room = (p->used + 7) / 8 * 8;
-    return p->room <= left && memchr(p->at, 0, MPS__PART_TITLE) != NULL;
+    p->capacity = (p->used + 7) / 8 * 8;
+    return p->capacity <= left && memchr(p->at, 0, MPS__PART_TITLE) != NULL;
 }
 
 /* The section with a name; 0 if it does not exist. */
 static inline int editor_find(unsigned char *file, size_t size, const char *name, editor_part *p)
 {
-    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, p); at += EDITOR_PART + p->room)
+    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, p);
+         at += EDITOR_PART + p->capacity)
         if (strcmp((const char *)p->at, name) == 0) return 1;
     return 0;
 }
@@ -55,9 +56,10 @@ static inline int editor_put(unsigned char *file, size_t size, const char *name,
 static inline void editor_repair(unsigned char *file, size_t size)
 {
     editor_part p;
-    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, &p); at += EDITOR_PART + p.room) {
+    for (size_t at = EDITOR_HEAD; editor_part_at(file, size, at, &p);
+         at += EDITOR_PART + p.capacity) {
         uint32_t checksum = 0;
-        memset(p.elements + p.used, 0, p.room - p.used);
+        memset(p.elements + p.used, 0, p.capacity - p.used);
         memcpy(p.at + MPS__PART_TITLE + 4, &checksum, sizeof checksum);
         checksum = mps__checksum(0, p.at, EDITOR_PART + p.used);
         memcpy(p.at + MPS__PART_TITLE + 4, &checksum, sizeof checksum);

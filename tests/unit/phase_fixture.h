@@ -9,16 +9,16 @@
 #include <mps/model.h>
 #include <stdlib.h>
 
-enum { SPY_ROOM = 40000 };
+enum { SPY_CAPACITY = 40000 };
 
 /* By id, of the last step. `pressure`, `rhs` and `deviation`, where given, are laid into the stage
  * before the models under test. */
 static struct {
-    double a[3 * SPY_ROOM], dp_a[3 * SPY_ROOM], density[SPY_ROOM], shift[SPY_ROOM], rhs[SPY_ROOM],
-        gas[SPY_ROOM], law[SPY_ROOM], p[SPY_ROOM];
-    double volume[SPY_ROOM], wide_sum[SPY_ROOM];
-    double number[SPY_ROOM], near_sum[SPY_ROOM]; /* over n0 */
-    int32_t level_free, region[SPY_ROOM];
+    double a[3 * SPY_CAPACITY], dp_a[3 * SPY_CAPACITY], density[SPY_CAPACITY], shift[SPY_CAPACITY],
+        rhs[SPY_CAPACITY], gas[SPY_CAPACITY], law[SPY_CAPACITY], p[SPY_CAPACITY];
+    double volume[SPY_CAPACITY], wide_sum[SPY_CAPACITY];
+    double number[SPY_CAPACITY], near_sum[SPY_CAPACITY]; /* over n0 */
+    int32_t level_free, region[SPY_CAPACITY];
     double (*pressure)(const double *x, int dim);
     double given_rhs, given_deviation;
 } spy;
@@ -110,7 +110,7 @@ static inline int spy_force(mps_stage *s)
     const double *volume = s->data[SPY_DEVIATION], *number = s->data[SPY_NUMBER];
     const int32_t *region = s->data[SPY_REGION];
     const int dim = v->dim;
-    assert_true(v->n <= SPY_ROOM);
+    assert_true(v->n <= SPY_CAPACITY);
     for (int64_t i = 0; i < v->n * dim; i++) spy.a[v->id[i / dim] * dim + i % dim] = a[i];
     for (int64_t i = 0; i < v->n; i++) {
         spy.density[v->id[i]] = density[i];

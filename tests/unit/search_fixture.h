@@ -28,11 +28,12 @@ static inline int64_t below(int64_t n, uint64_t *seed)
 
 static inline tank tank_of(int32_t dim, int64_t n, uint64_t seed)
 {
-    const size_t room = n > 0 ? (size_t)n : 1;
-    tank t = {cloud_empty(dim, n), calloc(room, sizeof(int32_t)), calloc(room, sizeof(int64_t))};
+    const size_t capacity = n > 0 ? (size_t)n : 1;
+    tank t = {cloud_empty(dim, n), calloc(capacity, sizeof(int32_t)),
+              calloc(capacity, sizeof(int64_t))};
     int64_t side = 1;
     while ((dim == 2 ? side * side : side * side * side) < n) side++;
-    int64_t *place = calloc(room, sizeof *place);
+    int64_t *place = calloc(capacity, sizeof *place);
     assert_true(t.c.x && t.kind && t.id && place);
     for (int64_t i = 0; i < n; i++) place[i] = t.id[i] = i;
     for (int64_t i = n - 1; i > 0; i--) {
@@ -78,33 +79,33 @@ static inline void tank_sort(tank *t, const int32_t *order)
 }
 
 /* Allocate arrays for loops of a device. */
-typedef struct search_room {
+typedef struct search_buffers {
     mps__order_arrays order;
     mps__search_arrays search;
-} search_room;
+} search_buffers;
 
-static inline void *room_for(int64_t count, size_t size)
+static inline void *allocate(int64_t count, size_t size)
 {
-    void *room = malloc((size_t)(count > 0 ? count : 1) * size);
-    assert_non_null(room);
-    return room;
+    void *capacity = malloc((size_t)(count > 0 ? count : 1) * size);
+    assert_non_null(capacity);
+    return capacity;
 }
 
-static inline search_room search_room_of(int64_t n)
+static inline search_buffers search_buffers_of(int64_t n)
 {
-    search_room r = {.order = {.key = room_for(2 * n, sizeof(uint64_t)),
-                               .order = room_for(2 * n, sizeof(int32_t))},
-                     .search = {.begin = room_for(mps__scan_room(n), sizeof(int64_t)),
-                                .middle = room_for(n, sizeof(int64_t)),
-                                .end = room_for(n, sizeof(int64_t)),
-                                .count = room_for(n, sizeof(int32_t)),
-                                .idle = room_for(n, 1),
-                                .rim = room_for(n, 1)}};
+    search_buffers r = {.order = {.key = allocate(2 * n, sizeof(uint64_t)),
+                                  .order = allocate(2 * n, sizeof(int32_t))},
+                        .search = {.begin = allocate(mps__scan_size(n), sizeof(int64_t)),
+                                   .middle = allocate(n, sizeof(int64_t)),
+                                   .end = allocate(n, sizeof(int64_t)),
+                                   .count = allocate(n, sizeof(int32_t)),
+                                   .idle = allocate(n, 1),
+                                   .boundary = allocate(n, 1)}};
     r.search.key = r.order.key;
     return r;
 }
 
-static inline void search_room_free(search_room *r)
+static inline void search_buffers_free(search_buffers *r)
 {
     free(r->order.key);
     free(r->order.order);
@@ -113,22 +114,22 @@ static inline void search_room_free(search_room *r)
     free(r->search.end);
     free(r->search.count);
     free(r->search.idle);
-    free(r->search.rim);
+    free(r->search.boundary);
 }
 
 /* Lists of the host and of the loops: equal rows, contiguous in the second. */
-static inline void same_rows(const mps_neighbours *l, const mps__search_arrays *there)
+static inline void same_rows(const mps_neighbours *l, const mps__search_arrays *on_device)
 {
     int64_t begin = 0;
     for (int64_t i = 0; i < l->n; i++) {
-        assert_int_equal(there->idle[i], l->idle[i]);
-        assert_int_equal(there->rim[i], l->rim[i]);
-        assert_int_equal(there->count[i], l->count[i]);
-        assert_int_equal(there->begin[i], begin);
-        assert_int_equal(there->middle[i] - begin, l->middle[i] - l->begin[i]);
-        assert_int_equal(there->end[i] - begin, l->end[i] - l->begin[i]);
+        assert_int_equal(on_device->idle[i], l->idle[i]);
+        assert_int_equal(on_device->boundary[i], l->boundary[i]);
+        assert_int_equal(on_device->count[i], l->count[i]);
+        assert_int_equal(on_device->begin[i], begin);
+        assert_int_equal(on_device->middle[i] - begin, l->middle[i] - l->begin[i]);
+        assert_int_equal(on_device->end[i] - begin, l->end[i] - l->begin[i]);
         if (l->count[i] > 0)
-            assert_memory_equal(there->col + begin, l->col + l->begin[i],
+            assert_memory_equal(on_device->col + begin, l->col + l->begin[i],
                                 (size_t)l->count[i] * sizeof *l->col);
         begin += l->count[i];
     }
@@ -140,14 +141,14 @@ static inline void search_both(int32_t dim, int64_t n, bool dummy_rows, bool equ
     mps__context context = {.allocator = mps__allocator_default()};
     mps_neighbours host, l;
     tank t = tank_of(dim, n, (uint64_t)(n + dim));
-    search_room r = search_room_of(n);
+    search_buffers r = search_buffers_of(n);
     const double near = equal ? search_far : search_near;
     assert_int_equal(mps__neighbours_init(&host, &context, dim, CLOUD_DP), MPS_OK);
     assert_int_equal(mps__neighbours_init(&l, &context, dim, CLOUD_DP), MPS_OK);
     assert_int_equal(mps__neighbours_order(&host, n, t.c.x, t.id, search_far), MPS_OK);
     r.order.x = t.c.x;
     r.order.id = t.id;
-    const int32_t *order = mps__neighbours_order_there(&l, n, search_far, &r.order);
+    const int32_t *order = mps__neighbours_order_device(&l, n, search_far, &r.order);
     assert_non_null(order);
     assert_memory_equal(order, host.order, (size_t)n * sizeof *order);
     if (n > 0) {
@@ -159,18 +160,18 @@ static inline void search_both(int32_t dim, int64_t n, bool dummy_rows, bool equ
         assert_int_equal(mps__neighbours_begin(&l, n, t.c.x, near, search_far), MPS_OK);
         r.search.x = t.c.x;
         r.search.kind = t.kind;
-        mps__search_arrays there = r.search;
-        if (equal) there.end = there.middle;
-        assert_int_equal(mps__neighbours_count_there(&l, &there), MPS_OK);
+        mps__search_arrays on_device = r.search;
+        if (equal) on_device.end = on_device.middle;
+        assert_int_equal(mps__neighbours_count_device(&l, &on_device), MPS_OK);
         assert_int_equal(l.pairs, host.pairs);
         assert_int_equal(l.longest, 0);
-        there.col = l.col;
-        mps__neighbours_fill_there(&l, &there);
-        same_rows(&host, &there);
+        on_device.col = l.col;
+        mps__neighbours_fill_device(&l, &on_device);
+        same_rows(&host, &on_device);
     }
     mps__neighbours_free(&host);
     mps__neighbours_free(&l);
-    search_room_free(&r);
+    search_buffers_free(&r);
     tank_free(&t);
 }
 

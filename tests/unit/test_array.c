@@ -13,8 +13,8 @@ enum { N = 5, BYTES = N * sizeof(double) };
 
 /* A device whose memory is that of the host. */
 typedef struct fake {
-    int copies_up, copies_down, copies, outdated, blocks;
-    const void *last_outdated;
+    int copies_up, copies_down, copies, invalidated, blocks;
+    const void *last_invalidated;
     bool fails;
 } fake;
 
@@ -48,7 +48,7 @@ static int copy_down(void *self, void *to, const void *from, uint64_t bytes)
     return 0;
 }
 
-static int copy_there(void *self, void *to, const void *from, uint64_t bytes)
+static int copy_on_device(void *self, void *to, const void *from, uint64_t bytes)
 {
     ((fake *)self)->copies++;
     memcpy(to, from, bytes);
@@ -61,13 +61,13 @@ static const char *why(void *self)
     return "it fails";
 }
 
-static void note_outdated(void *self, void *array, uint64_t bytes, uint32_t number)
+static void note_invalidated(void *self, void *array, uint64_t bytes, uint32_t number)
 {
     fake *f = self;
     (void)bytes;
     assert_int_equal(number, sizeof(double));
-    f->outdated++;
-    f->last_outdated = array;
+    f->invalidated++;
+    f->last_invalidated = array;
 }
 
 typedef struct scene {
@@ -85,13 +85,13 @@ static void begin(scene *k)
     mps__device_init(&k->device, &k->context);
     k->device.ops = (mps_device_ops){.name = "fake",
                                      .self = &k->fake,
-                                     .room = allocate,
-                                     .give = release,
+                                     .alloc = allocate,
+                                     .free = release,
                                      .upload = copy_up,
                                      .download = copy_down,
-                                     .copy = copy_there,
+                                     .copy = copy_on_device,
                                      .failure = why,
-                                     .outdated = note_outdated};
+                                     .invalidated = note_invalidated};
     for (int i = 0; i < N; i++) k->host[i] = i + 1;
     k->a.host = k->host;
     mps__array_written(&k->a, MPS__ON_HOST);
@@ -134,16 +134,16 @@ static void copies_only_what_is_stale(void **state)
     mirror(&k)[2] = 7;
     mps__array_written(&k.a, MPS__ON_DEVICE);
     check_valid(&k.a, false, true);
-    assert_ptr_equal(k.fake.last_outdated, k.host);
+    assert_ptr_equal(k.fake.last_invalidated, k.host);
     mps__array_written(&k.a, MPS__ON_DEVICE); /* the host is invalid already */
-    assert_int_equal(k.fake.outdated, 1);
+    assert_int_equal(k.fake.invalidated, 1);
     for (int m = 0; m < 2; m++) mps__array_copy(&k.a, MPS__ON_HOST);
     assert_int_equal(k.fake.copies_down, 1);
     assert_true(k.host[2] == 7);
     check_valid(&k.a, true, true);
     mps__array_written(&k.a, MPS__ON_HOST);
     check_valid(&k.a, true, false);
-    assert_ptr_equal(k.fake.last_outdated, mirror(&k));
+    assert_ptr_equal(k.fake.last_invalidated, mirror(&k));
     end(&k);
     check_valid(&k.a, true, false);
 }
@@ -173,7 +173,7 @@ static void older_values_stay_readable(void **state)
     mps__array_copy(&k.a, MPS__ON_DEVICE);
     mps__array_advanced(&k.a, MPS__ON_DEVICE);
     check_valid(&k.a, false, true);
-    assert_int_equal(k.fake.outdated, 0);
+    assert_int_equal(k.fake.invalidated, 0);
     end(&k);
 }
 

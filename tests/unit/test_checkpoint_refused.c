@@ -124,12 +124,12 @@ static void write_file(const char *path, const unsigned char *bytes, size_t size
     assert_int_equal(fclose(file), 0);
 }
 
-static size_t read_file(const char *path, unsigned char *bytes, size_t room)
+static size_t read_file(const char *path, unsigned char *bytes, size_t capacity)
 {
     FILE *file = fopen(path, "rb");
     assert_non_null(file);
-    const size_t size = fread(bytes, 1, room, file);
-    assert_true(size < room);
+    const size_t size = fread(bytes, 1, capacity, file);
+    assert_true(size < capacity);
     assert_int_equal(fclose(file), 0);
     return size;
 }
@@ -359,7 +359,7 @@ static void damaged_files(void **state)
     }
     bytes[size] = 0;
     write_file(path, bytes, size + 1);
-    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "goes on behind its end");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "continues behind its end");
     write_file(path, (const unsigned char *)"something else altogether", 25);
     ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "is no checkpoint");
     same(sim, kept);

@@ -10,7 +10,7 @@ static const double dp = 0.05;
 /* What a verb saw of near rows. */
 typedef struct sight {
     int64_t calls, dummies, with_row, in_fluid_rows,
-        beside; /* beside: fluid with a dummy as neighbour, by mps_stage_beside() */
+        beside; /* beside: fluid with a dummy as neighbour, by mps_stage_adjacent() */
 } sight;
 static sight seen;
 
@@ -31,7 +31,7 @@ static int look(mps_stage *s)
         seen.with_row += dummy && v->near.end[i] > v->near.begin[i];
         seen.in_fluid_rows += fluid && any;
     }
-    mps_stage_beside(s, member, beside);
+    mps_stage_adjacent(s, member, beside);
     for (int64_t i = 0; i < v->n; i++) seen.beside += v->kind[i] == MPS_FLUID && beside[i];
     return 0;
 }

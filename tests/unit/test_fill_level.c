@@ -5,12 +5,12 @@
 #include "tank_fixture.h"
 #include <stdio.h>
 
-static char told[512];
+static char logged[512];
 
 static void keep_log(void *user, int level, const char *text)
 {
     (void)user;
-    if (level == MPS_LOG_INFO) snprintf(told, sizeof told, "%s", text);
+    if (level == MPS_LOG_INFO) snprintf(logged, sizeof logged, "%s", text);
 }
 
 /* A tank of 0.4 x 0.3 x 0.1 m that logs. */
@@ -24,7 +24,7 @@ static mps_sim *logging(int32_t dim, double dp)
     config.log = keep_log;
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     add_tank(sim, 0.4, 0.3, 0.1);
-    told[0] = 0;
+    logged[0] = 0;
     return sim;
 }
 
@@ -37,18 +37,20 @@ static void rounding_is_told(void **state)
         double built[6];
         mps_sim *sim = logging(dim, 0.01);
         ASSERT_OK(sim, mps_baffle_add(sim, "wall", from, to, built));
-        if (!strstr(told, "baffle \"wall\": 0 .. 0.0874 m in y became 0 .. 0.08 m"))
-            fail_msg("\"%s\"", told);
+        if (!strstr(logged, "baffle \"wall\": 0 .. 0.0874 m in y became 0 .. 0.08 m"))
+            fail_msg("\"%s\"", logged);
         const double wanted[2][6] = {{0.2, 0, 0.24, 0.08}, {0.2, 0, 0, 0.24, 0.08, 0.1}};
         for (int d = 0; d < 2 * dim; d++) ASSERT_NEAR(built[d], wanted[dim - 2][d], 1e-12);
         ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, hi, NULL, built));
-        if (!strstr(told, "fill: 0 .. 0.093 m in y became 0 .. 0.09 m")) fail_msg("\"%s\"", told);
+        if (!strstr(logged, "fill: 0 .. 0.093 m in y became 0 .. 0.09 m"))
+            fail_msg("\"%s\"", logged);
         ASSERT_NEAR(built[dim + 1], 0.09, 1e-12);
         mps_sim_destroy(sim);
         sim = logging(dim, 0.01);
         const double even[3] = {0.4, 0.09, 0.1};
         ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, even, NULL, built));
-        if (strstr(told, "became") || !strstr(told, "asked for, +0 %")) fail_msg("\"%s\"", told);
+        if (strstr(logged, "became") || !strstr(logged, "asked for, +0 %"))
+            fail_msg("\"%s\"", logged);
         mps_sim_destroy(sim);
     }
 }

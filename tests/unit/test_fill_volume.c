@@ -5,13 +5,13 @@
 #include "tank_fixture.h"
 #include <stdio.h>
 
-static char told[4096];
+static char logged[4096];
 
 static void keep_log(void *user, int level, const char *text)
 {
     (void)user, (void)level;
-    strncat(told, text, sizeof told - strlen(told) - 2);
-    strcat(told, "\n");
+    strncat(logged, text, sizeof logged - strlen(logged) - 2);
+    strcat(logged, "\n");
 }
 
 static mps_sim *logging(int32_t dim, double dp)
@@ -23,14 +23,14 @@ static mps_sim *logging(int32_t dim, double dp)
     config.dp = dp;
     config.log = keep_log;
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
-    told[0] = 0;
+    logged[0] = 0;
     return sim;
 }
 
 /* The built and requested volume that a fill logs; -1: no such line. */
 static void last_fill(double *built, double *asked)
 {
-    const char *at = NULL, *next = told;
+    const char *at = NULL, *next = logged;
     int dim[2];
     while ((next = strstr(next, "fill of phase 0: ")) != NULL) at = next++;
     *built = *asked = -1;

@@ -140,7 +140,7 @@ static void series_goes_on(void **state)
     }
 }
 
-static char path_room[256];
+static char path_capacity[256];
 
 static int at_even_steps(void *user, double t)
 {
@@ -174,8 +174,8 @@ static void frames_are_removed(void **state)
     assert_true(there("steps/steps_000060.vtp") && !there("steps/steps_000070.vtp"));
     sim->world.state.t = 0.5; /* continues from here; a frame was removed later */
     assert_int_equal(
-        remove((snprintf(path_room, sizeof path_room, "%s/steps/steps_000040.vtp", folder),
-                path_room)),
+        remove((snprintf(path_capacity, sizeof path_capacity, "%s/steps/steps_000040.vtp", folder),
+                path_capacity)),
         0);
     ASSERT_OK(sim, mps_frames_open(sim, folder, "steps", MPS_FRAMES_STEPS | MPS_FRAMES_CONTINUE,
                                    &frames));

@@ -321,13 +321,13 @@ static const struct {
             {get_solver, init_name, sizeof(mps_name_info), 0},
             {get_preconditioner, init_name, sizeof(mps_name_info), 0},
             {get_kernel, init_name, sizeof(mps_name_info), 0}};
-enum { GETS = sizeof gets / sizeof gets[0], ROOM = 256 };
+enum { GETS = sizeof gets / sizeof gets[0], CAPACITY = 256 };
 
-typedef union room {
+typedef union buffer {
     uint32_t struct_size;
     void *align;
-    unsigned char byte[ROOM];
-} room;
+    unsigned char byte[CAPACITY];
+} buffer;
 
 /* Beyond the last and before the first: a status alone, the text of the last failure stays. */
 static void beyond_the_end(void **state)
@@ -338,13 +338,13 @@ static void beyond_the_end(void **state)
     ASSERT_STATUS(sim, mps_model_use(sim, "no.such"), MPS_E_NAME);
     snprintf(text, sizeof text, "%s", mps_sim_error(sim));
     for (int g = 0; g < GETS; g++) {
-        room r;
+        buffer r;
         int32_t last = 0;
         memset(&r, 0, sizeof r); /* gaps between members are compared too */
         assert_int_equal(gets[g].init(&r, gets[g].size), MPS_OK);
         while (gets[g].get(sim, last, &r) == MPS_OK) last++;
         const int32_t beyond[] = {last, last + 1, INT32_MAX, -1, INT32_MIN};
-        const room before = r;
+        const buffer before = r;
         assert_true(last > 0);
         for (int k = 0; k < 5; k++) assert_int_equal(gets[g].get(sim, beyond[k], &r), MPS_E_ARG);
         assert_memory_equal(&before, &r, gets[g].size);
@@ -361,8 +361,8 @@ static void other_sizes(void **state)
     (void)state;
     mps_sim *sim = new_sim(2, 0.1);
     for (int g = 0; g < GETS; g++) {
-        room full, other;
-        const size_t sizes[] = {gets[g].size, gets[g].size + 8, ROOM},
+        buffer full, other;
+        const size_t sizes[] = {gets[g].size, gets[g].size + 8, CAPACITY},
                      bad[] = {0, 4, 16, gets[g].size - 8};
         for (int k = 0; k < 4; k++) assert_int_equal(gets[g].init(&other, bad[k]), MPS_E_ARG);
         assert_int_equal(gets[g].init(&full, gets[g].size), MPS_OK);
@@ -372,13 +372,13 @@ static void other_sizes(void **state)
             memset(&other, 0x5a, sizeof other);
             assert_int_equal(gets[g].init(&other, sizes[k]), MPS_OK);
             assert_int_equal(other.struct_size, sizes[k]);
-            for (size_t b = 4; b < ROOM; b++)
+            for (size_t b = 4; b < CAPACITY; b++)
                 assert_int_equal(other.byte[b], b < sizes[k] ? 0 : 0x5a);
             ASSERT_OK(sim, gets[g].get(sim, 0, &other));
             assert_int_equal(other.struct_size, sizes[k]);
             const size_t filled = same - (same == gets[g].size ? gets[g].padding : 0);
             assert_memory_equal(other.byte + 4, full.byte + 4, filled - 4);
-            for (size_t b = same; b < ROOM; b++)
+            for (size_t b = same; b < CAPACITY; b++)
                 assert_int_equal(other.byte[b], b < sizes[k] ? 0 : 0x5a);
         }
         other.struct_size = 0;

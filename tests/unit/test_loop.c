@@ -97,18 +97,18 @@ static void sums_up_to_each(void **state)
     static fixture k;
     (void)state;
     for (size_t m = 0; m < 2 * (sizeof size / sizeof size[0]); m++) {
-        const int64_t n = size[m / 2], room = mps__scan_room(n);
-        int64_t *values = malloc((size_t)(room + 1) * sizeof *values), sum = 0;
+        const int64_t n = size[m / 2], whole = mps__scan_size(n);
+        int64_t *values = malloc((size_t)(whole + 1) * sizeof *values), sum = 0;
         assert_non_null(values);
-        assert_true(room >= n && room <= n + n / 64 + 1);
+        assert_true(whole >= n && whole <= n + n / 64 + 1);
         begin(&k, m % 2 ? 4 : 1);
-        for (int64_t i = 0; i <= room; i++) values[i] = i < n ? i * 7919 % 1009 - 300 : INT64_MIN;
+        for (int64_t i = 0; i <= whole; i++) values[i] = i < n ? i * 7919 % 1009 - 300 : INT64_MIN;
         mps__scan(&k.pool.parallel, values, n);
         for (int64_t i = 0; i < n; i++) {
             sum += i * 7919 % 1009 - 300;
             assert_true(values[i] == sum);
         }
-        assert_true(values[room] == INT64_MIN);
+        assert_true(values[whole] == INT64_MIN);
         mps__pool_free(&k.pool);
         free(values);
     }

@@ -212,10 +212,10 @@ static void follows(void **state)
 static void comes_back_after_a_failure(void **state)
 {
     (void)state;
-    mps_sim *sim = pool(0), *twin = pool(0);
+    mps_sim *sim = pool(0), *mirror = pool(0);
     const int64_t n = mps_particles_count(sim, -1);
     mark_all(sim);
-    mark_all(twin);
+    mark_all(mirror);
     test.refresh = 1;
     for (int k = 0; k < 20; k++) {
         test.fail = 1;
@@ -224,13 +224,13 @@ static void comes_back_after_a_failure(void **state)
         check_marks(sim, n);
         assert_true(field_value(sim, "age", 7, 0) == 5 + k);
         steps(sim, 1);
-        steps(twin, 1);
+        steps(mirror, 1);
         for (int64_t id = 0; id < n; id += 7)
             assert_true(field_value(sim, "velocity", id, 1) ==
-                        field_value(twin, "velocity", id, 1));
+                        field_value(mirror, "velocity", id, 1));
     }
     mps_sim_destroy(sim);
-    mps_sim_destroy(twin);
+    mps_sim_destroy(mirror);
 }
 
 static void checkpoint(void **state)

@@ -263,7 +263,7 @@ static void *take(void *user, size_t size)
     return malloc(size);
 }
 
-static void give(void *user, void *block)
+static void release(void *user, void *block)
 {
     assert_ptr_equal(user, &test);
     free(block);
@@ -296,7 +296,7 @@ static int check_self(mps_stage *s)
 static void user_and_create(void **state)
 {
     (void)state;
-    const mps_allocator allocator = {take, give, &test};
+    const mps_allocator allocator = {take, release, &test};
     static const mps_verb verb = {.hook = MPS_FORCE, .run = check_self};
     static int mine;
     for (int with_user = 0; with_user < 2; with_user++)
@@ -325,7 +325,7 @@ static void user_and_create(void **state)
 static void create_fails(void **state)
 {
     (void)state;
-    const mps_allocator allocator = {take, give, &test};
+    const mps_allocator allocator = {take, release, &test};
     static const mps_verb verb = {.hook = MPS_FORCE, .run = do_nothing};
     static const mps_model_ops first = {TOY("state.first", 1, &verb)};
     const mps_model_ops ops = {TOY("state.toy", 1, &verb), .create = create, .destroy = destroy};

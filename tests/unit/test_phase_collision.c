@@ -152,7 +152,7 @@ typedef struct corner {
 
 enum { THROW_STEPS = 8 };
 
-static const double room[3] = {10, 8, 6};
+static const double box[3] = {10, 8, 6};
 
 /* How deep x [dp] is behind the solid's faces in the tank, or behind a wall of the tank. */
 static double depth_in(const corner *c, const double *x)
@@ -160,8 +160,8 @@ static double depth_in(const corner *c, const double *x)
     double solid = c->plate[1] > 0 ? -INFINITY : INFINITY, beyond = -INFINITY;
     for (int d = 0; d < c->dim; d++) {
         if (c->lo[d] > 0) solid = fmin(solid, x[d] - c->lo[d]);
-        if (c->hi[d] < room[d]) solid = fmin(solid, c->hi[d] - x[d]);
-        beyond = fmax(beyond, fmax(-x[d], x[d] - room[d]));
+        if (c->hi[d] < box[d]) solid = fmin(solid, c->hi[d] - x[d]);
+        beyond = fmax(beyond, fmax(-x[d], x[d] - box[d]));
     }
     return fmax(solid, beyond);
 }
@@ -170,13 +170,13 @@ static mps_sim *corner_sim(const corner *c)
 {
     const double dp = CLOUD_DP;
     double lo[3], hi[3];
-    const double up[3] = {c->plate[0] * dp, c->plate[1] * dp, 0}, across[3] = {0, 0, room[2] * dp};
+    const double up[3] = {c->plate[0] * dp, c->plate[1] * dp, 0}, across[3] = {0, 0, box[2] * dp};
     mps_sim *sim = bare_sim(c->dim, dp, 2.1, 1);
     for (int d = 0; d < 3; d++) {
         lo[d] = c->lo[d] * dp;
         hi[d] = c->hi[d] * dp;
     }
-    add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
+    add_tank(sim, box[0] * dp, box[1] * dp, box[2] * dp);
     if (c->plate[1] > 0)
         ASSERT_OK(sim, mps_plate_add(sim, "plate", lo, up, c->dim == 3 ? across : NULL));
     else if (c->hi[1] > 0)
@@ -374,7 +374,7 @@ static void out_of_the_wall(void **state)
             const int axis = k == 2;
             double at[3];
             mps_sim *sim = bare_sim(dim, dp, 2.1, 0.1 * dp);
-            add_tank(sim, room[0] * dp, room[1] * dp, room[2] * dp);
+            add_tank(sim, box[0] * dp, box[1] * dp, box[2] * dp);
             mps_particle_block b;
             assert_int_equal(mps_particle_block_init(&b, sizeof b), MPS_OK);
             for (int d = 0; d < dim; d++) at[d] = places[k][d] * dp;
@@ -396,7 +396,7 @@ static void out_of_the_wall(void **state)
                 free(x);
                 free(u);
             }
-            const double off = fmin(at[axis], room[axis] * dp - at[axis]) / dp;
+            const double off = fmin(at[axis], box[axis] * dp - at[axis]) / dp;
             ASSERT_NEAR(off, 0.25, 1e-9);
             mps_sim_destroy(sim);
         }

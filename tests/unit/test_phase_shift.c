@@ -3,7 +3,7 @@
 #include "phase_fixture.h"
 #include <stdbool.h>
 
-enum { ROOM = 1000 };
+enum { CAPACITY = 1000 };
 static const double FILTER = 0.7, STRENGTH = 1.3;
 
 enum { VELOCITY, DENSITY, REGION, ASYMMETRY, DISPLACEMENT, USES };
@@ -16,7 +16,7 @@ static const mps_use uses[USES] = {[VELOCITY] = {"velocity", MPS_USE_NEIGHBOURS}
 /* Of the last step, by row; worst: largest difference from what is expected over the largest. */
 static struct {
     double limit; /* setting */
-    double velocity[3 * ROOM], displacement[3 * ROOM], even[3 * ROOM];
+    double velocity[3 * CAPACITY], displacement[3 * CAPACITY], even[3 * CAPACITY];
     double shift, worst_shift, change, worst_change;
     int64_t limited, bounded, surface, near, spray, beside, bent;
 } seen;
@@ -45,7 +45,7 @@ static int keep(mps_stage *s)
     const double *u = s->data[VELOCITY], *x = s->data[DISPLACEMENT];
     const size_t bytes = (size_t)(v->n * v->dim) * sizeof *u;
     const int32_t *region = s->data[REGION];
-    assert_true(v->n <= ROOM);
+    assert_true(v->n <= CAPACITY);
     memcpy(seen.velocity, u, bytes);
     memcpy(seen.displacement, x, bytes);
     memset(seen.even, 0, sizeof seen.even);

@@ -6,7 +6,7 @@
 
 static double times; /* of the viscosity of the phase */
 
-static int give(mps_stage *s)
+static int release(mps_stage *s)
 {
     const mps_view *v = s->view;
     double *viscosity = s->data[0];
@@ -16,7 +16,7 @@ static int give(mps_stage *s)
 
 static const mps_use give_uses[] = {{"viscosity", MPS_USE_CHANGE}};
 static const mps_verb give_verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = 1, .uses = give_uses, .run = give}};
+    {.hook = MPS_PREPARE, .use_count = 1, .uses = give_uses, .run = release}};
 static const mps_channel give_channels[] = {{.name = "viscosity",
                                              .unit = "Pa s",
                                              .help = "viscosity of each particle",

@@ -179,11 +179,11 @@ static void what_is_a_plate(void **state)
                  end[2] = {0.8 + 3 * dp, 0.5};
     add_tank(sim, 1, 0.6, 0);
     add_plate(sim, 1, 0.4, 0.6 - dp);
-    assert_int_equal(sim->world.lists.screens.count, 1);
-    ASSERT_NEAR(sim->world.lists.screens.list[0].length[0], 0.2, 1e-12);
+    assert_int_equal(sim->world.lists.occluders.count, 1);
+    ASSERT_NEAR(sim->world.lists.occluders.list[0].length[0], 0.2, 1e-12);
     ASSERT_OK(sim, mps_baffle_add(sim, "step", lo, hi, NULL));
     ASSERT_OK(sim, mps_baffle_add(sim, "box", thick, end, NULL));
-    assert_int_equal(sim->world.lists.screens.count, 1);
+    assert_int_equal(sim->world.lists.occluders.count, 1);
     mps_sim_destroy(sim);
 }
 
@@ -331,7 +331,7 @@ static void refusals(void **state)
     ASSERT_OK(sim, mps_plate_add(sim, "p", at, up, along));
     ASSERT_REFUSED(sim, mps_plate_add(sim, "again", at, up, along), MPS_E_ARG, "taken");
     assert_int_equal(mps_part_find(sim, "again"), -1);
-    assert_int_equal(sim->world.lists.screens.count, 1);
+    assert_int_equal(sim->world.lists.occluders.count, 1);
     mps_sim_destroy(flat);
     mps_sim_destroy(sim);
 }

@@ -161,11 +161,11 @@ typedef struct forgery {
 } forgery;
 
 /* The only model with numbers. */
-static void find_numbers(unsigned char *bytes, size_t size, char *name, size_t room)
+static void find_numbers(unsigned char *bytes, size_t size, char *name, size_t capacity)
 {
     editor_part p = {0};
     for (int k = 0; k < 64; k++) {
-        snprintf(name, room, "numbers of model %d", k);
+        snprintf(name, capacity, "numbers of model %d", k);
         if (editor_find(bytes, size, name, &p)) return;
     }
     fail_msg("no numbers");

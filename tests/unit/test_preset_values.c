@@ -59,18 +59,18 @@ static const struct {
                    "collision.pair distance=0.8 restitution=0.5 wall_distance=0.5; "}};
 
 /* The active models with their settings. */
-static void describe(mps_sim *sim, char *out, size_t room)
+static void describe(mps_sim *sim, char *out, size_t capacity)
 {
     mps_setting_info s;
     size_t used = 0;
     const char *name;
     assert_int_equal(mps_setting_info_init(&s, sizeof s), MPS_OK);
     for (int32_t m = 0; (name = mps_model_name(sim, m)); m++) {
-        used += (size_t)snprintf(out + used, room - used, "%s", name);
+        used += (size_t)snprintf(out + used, capacity - used, "%s", name);
         for (int32_t k = 0; mps_setting_info_get(sim, name, k, &s) == MPS_OK; k++)
-            used += (size_t)snprintf(out + used, room - used, " %s=%.9g", s.key, s.value);
-        used += (size_t)snprintf(out + used, room - used, "; ");
-        assert_true(used < room);
+            used += (size_t)snprintf(out + used, capacity - used, " %s=%.9g", s.key, s.value);
+        used += (size_t)snprintf(out + used, capacity - used, "; ");
+        assert_true(used < capacity);
     }
 }
 

@@ -4,12 +4,12 @@
 #include "probe_fixture.h"
 #include <stdio.h>
 
-static char told[2048];
+static char logged[2048];
 
 static void keep_log(void *user, int level, const char *text)
 {
     (void)user, (void)level;
-    strncat(told, text, sizeof told - strlen(told) - 2);
+    strncat(logged, text, sizeof logged - strlen(logged) - 2);
 }
 
 static mps_sim *logging(int32_t dim)
@@ -22,7 +22,7 @@ static mps_sim *logging(int32_t dim)
     config.log = keep_log;
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
     add_tank(sim, 0.4, 0.3, 0.1);
-    told[0] = 0;
+    logged[0] = 0;
     return sim;
 }
 
@@ -69,19 +69,20 @@ static void in_a_corner(void **state)
         mps_probe p = probe_of(MPS_PROBE_WALL_PRESSURE, 0, 1.6 * dp, 0.05);
         p.diameter = 1e-5;
         assert_face(sim, &p, "tank.x0", 1, 0, 1);
-        assert_string_equal(told, ""); /* only one face */
+        assert_string_equal(logged, ""); /* only one face */
         p.at[1] = 0.4 * dp;
         p.name = "P1";
         p.at[0] = 1.1 * dp;
         assert_face(sim, &p, "tank.y0", 0, 1, 2);
-        assert_string_equal(told, "");
+        assert_string_equal(logged, "");
         p.at[0] = 0.7 * dp;
         p.name = "P2";
         assert_face(sim, &p, "tank.y0", 0, 1, 2);
-        assert_non_null(strstr(told, "probe 2 'P2' reads the face with the normal (0, 1, 0), part "
-                                     "\"tank.y0\"; another is as near, with (1, 0, 0), part "
-                                     "\"tank.x0\": probe.normal chooses"));
-        told[0] = 0;
+        assert_non_null(strstr(logged,
+                               "probe 2 'P2' reads the face with the normal (0, 1, 0), part "
+                               "\"tank.y0\"; another is as near, with (1, 0, 0), part "
+                               "\"tank.x0\": probe.normal chooses"));
+        logged[0] = 0;
         p.name = NULL;
         p.at[1] = 1.2 * dp;
         p.at[0] = 0.9 * dp;
@@ -89,7 +90,7 @@ static void in_a_corner(void **state)
         assert_face(sim, &p, "tank.y0", 0, 1, 2);
         p.normal[0] = 0.0115; /* 29.9 degrees off it */
         assert_face(sim, &p, "tank.y0", 0, 1, 2);
-        assert_string_equal(told, "");
+        assert_string_equal(logged, "");
         mps_sim_destroy(sim);
     }
 }
@@ -182,7 +183,7 @@ static void names_in_messages(void **state)
     p.average = 1e-9;
     ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
     for (int k = 0; k < 20; k++) ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
-    assert_non_null(strstr(told, "probe 0 'P_left' averages over 1e-09 s"));
+    assert_non_null(strstr(logged, "probe 0 'P_left' averages over 1e-09 s"));
     mps_sim_destroy(sim);
 }
 
@@ -207,7 +208,7 @@ static void windows_that_are_short(void **state)
         p.average = cases[k].average;
         ASSERT_OK(sim, mps_probe_add(sim, &p, &id));
         for (int n = 0; n < 20; n++) ASSERT_OK(sim, mps_step(sim, 1e-3, NULL));
-        assert_true((strstr(told, "averages over") != NULL) == cases[k].tells);
+        assert_true((strstr(logged, "averages over") != NULL) == cases[k].tells);
         mps_sim_destroy(sim);
     }
 }
@@ -235,7 +236,7 @@ static void forces_that_lag(void **state)
             if (k < 4) ASSERT_OK(sim, mps_motion_pose_set(sim, 1e-3 * n, &pose));
             ASSERT_OK(sim, mps_run(sim, 1e-3 * n, NULL, NULL));
         }
-        const char *said = strstr(told, "probe 0 averages a force over");
+        const char *said = strstr(logged, "probe 0 averages a force over");
         assert_true((said != NULL) == (k < 2));
         if (said) assert_non_null(strstr(said, "must not drive a body"));
         if (said) assert_null(strstr(said + 1, "probe 0 averages a force over"));

@@ -132,7 +132,7 @@ static void dragged_along(void **state)
 {
     (void)state;
     for (int how = FORCE; how <= VELOCITY; how++) {
-        double speed = 0.5, all[3], screen[3], floor[3], about[3];
+        double speed = 0.5, all[3], occluder[3], floor[3], about[3];
         mps_sim *sim = drop_in_a_tank(&speed);
         memset(&drag, 0, sizeof drag);
         drag.how = how;
@@ -152,10 +152,10 @@ static void dragged_along(void **state)
             ASSERT_NEAR(all[0] * (sim->world.state.t - t), -gained, rounding * fabs(before));
             impulse -= all[0] * (sim->world.state.t - t);
         }
-        ASSERT_OK(sim, mps_probe_read(sim, id[1], screen));
+        ASSERT_OK(sim, mps_probe_read(sim, id[1], occluder));
         ASSERT_OK(sim, mps_probe_read(sim, id[2], floor));
         ASSERT_OK(sim, mps_probe_read(sim, id[3], about));
-        assert_true(all[0] < 0 && memcmp(all, screen, sizeof all) == 0);
+        assert_true(all[0] < 0 && memcmp(all, occluder, sizeof all) == 0);
         assert_true(floor[0] == 0 && floor[1] == 0 && floor[2] == 0);
         /* about the drop's own height and below it; the moment of a force along x */
         const double height = energy_of(sim).centre[1];

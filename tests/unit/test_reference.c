@@ -3,7 +3,7 @@
 #include "phase_fixture.h"
 #include <stdio.h>
 
-static char told[400];
+static char logged[400];
 static int times_told;
 
 static void listen(void *user, int level, const char *text)
@@ -11,7 +11,7 @@ static void listen(void *user, int level, const char *text)
     (void)user;
     if (level != MPS_LOG_INFO || !strstr(text, "level")) return;
     times_told++;
-    snprintf(told, sizeof told, "%s", text);
+    snprintf(logged, sizeof logged, "%s", text);
 }
 
 enum { ROWS = 8 };

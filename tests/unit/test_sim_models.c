@@ -95,19 +95,19 @@ static void too_many_models(void **state)
 
 /* ---- what is missing ------------------------------------------------------------------------- */
 
-static char told[2048];
+static char logged[2048];
 
 static void keep_warnings(void *user, int level, const char *text)
 {
     (void)user;
     if (level < MPS_LOG_WARNING) return;
-    strncat(told, text, sizeof told - strlen(told) - 1);
+    strncat(logged, text, sizeof logged - strlen(logged) - 1);
 }
 
 static int count_of(const char *word)
 {
     int count = 0;
-    for (const char *at = told; (at = strstr(at, word)) != NULL; at++) count++;
+    for (const char *at = logged; (at = strstr(at, word)) != NULL; at++) count++;
     return count;
 }
 
@@ -121,14 +121,14 @@ static void missing_parts(void **state)
     c.dim = 2;
     c.dp = 0.05;
     c.log = keep_warnings;
-    told[0] = 0;
+    logged[0] = 0;
     assert_int_equal(mps_sim_create(&c, &sim), MPS_OK);
     add_tank(sim, 0.5, 0.5, 0);
     fill_depth(sim, 0.5, 0.3, 0);
     ASSERT_OK(sim, mps_run(sim, 1e-3, NULL, NULL));
-    assert_string_equal(told, "");
+    assert_string_equal(logged, "");
     ASSERT_OK(sim, mps_model_remove(sim, "gradient"));
-    assert_string_equal(told, "");
+    assert_string_equal(logged, "");
     ASSERT_OK(sim, mps_run(sim, 2e-3, NULL, NULL));
     ASSERT_OK(sim, mps_run(sim, 3e-3, NULL, NULL));
     assert_int_equal(count_of("adds to 'acceleration' in hook 'gradient'"), 1);

@@ -54,12 +54,12 @@ static void acceleration(void **state)
 static void failing_model(void **state)
 {
     (void)state;
-    mps_sim *twin = pool(), *sim = pool();
+    mps_sim *mirror = pool(), *sim = pool();
     char word[64];
-    use_push(twin);
+    use_push(mirror);
     use_push(sim);
     set_velocity(sim, 150, 0.3, 0.2);
-    set_velocity(twin, 150, 0.3, 0.2);
+    set_velocity(mirror, 150, 0.3, 0.2);
     for (int v = -1; v < 2 * VERBS; v++) {
         if (v >= 0) {
             const picture before = take_picture(sim);
@@ -74,12 +74,12 @@ static void failing_model(void **state)
             test.fail = -1;
         }
         ASSERT_OK(sim, mps_step(sim, 0.01, NULL));
-        ASSERT_OK(twin, mps_step(twin, 0.01, NULL));
-        const picture a = take_picture(sim), b = take_picture(twin);
+        ASSERT_OK(mirror, mps_step(mirror, 0.01, NULL));
+        const picture a = take_picture(sim), b = take_picture(mirror);
         assert_same(&a, &b);
     }
     mps_sim_destroy(sim);
-    mps_sim_destroy(twin);
+    mps_sim_destroy(mirror);
 }
 
 static int surge(void *user, double t, mps_motion_state *state)

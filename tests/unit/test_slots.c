@@ -4,14 +4,14 @@
 #include "tank_fixture.h"
 #include <stdio.h>
 
-static char told[4096];
+static char logged[4096];
 
 static void keep_warnings(void *user, int level, const char *text)
 {
     (void)user;
     if (level < MPS_LOG_WARNING || !strstr(text, "slot")) return;
-    strncat(told, text, sizeof told - strlen(told) - 2);
-    strcat(told, "\n");
+    strncat(logged, text, sizeof logged - strlen(logged) - 2);
+    strcat(logged, "\n");
 }
 
 static mps_sim *tank(int32_t dim)
@@ -23,7 +23,7 @@ static mps_sim *tank(int32_t dim)
     config.dp = 0.02;
     config.log = keep_warnings;
     assert_int_equal(mps_sim_create(&config, &sim), MPS_OK);
-    told[0] = 0;
+    logged[0] = 0;
     add_tank(sim, 0.6, 0.4, 0.2);
     return sim;
 }
@@ -34,10 +34,10 @@ static int warnings(mps_sim *sim)
     const double lo[3] = {0, 0, 0}, hi[3] = {0.6, 0.2, 0.2}, all[3] = {0.6, 0.4, 0.2};
     int count = 0;
     ASSERT_OK(sim, mps_fill_level_add(sim, 0, lo, hi, NULL, NULL));
-    for (const char *at = told; (at = strchr(at, '\n')) != NULL; at++) count++;
-    const size_t length = strlen(told);
+    for (const char *at = logged; (at = strchr(at, '\n')) != NULL; at++) count++;
+    const size_t length = strlen(logged);
     ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, all, NULL, NULL));
-    assert_int_equal(strlen(told), length);
+    assert_int_equal(strlen(logged), length);
     mps_sim_destroy(sim);
     return count;
 }
@@ -58,9 +58,9 @@ static void block_and_wall(void **state)
         assert_int_equal(beside_wall(dim, 0.04), 0);
         assert_int_equal(beside_wall(dim, 0), 0);
         assert_int_equal(beside_wall(dim, 0.02), 1);
-        if (!strstr(told, "between \"tank.x0\" and \"block\" is 0.02 m wide, 1 dp, at (0.01, "))
-            fail_msg("%s", told);
-        if (!strstr(told, "dp of at most 0.01 m")) fail_msg("%s", told);
+        if (!strstr(logged, "between \"tank.x0\" and \"block\" is 0.02 m wide, 1 dp, at (0.01, "))
+            fail_msg("%s", logged);
+        if (!strstr(logged, "dp of at most 0.01 m")) fail_msg("%s", logged);
     }
 }
 
@@ -81,7 +81,8 @@ static void plate_and_wall(void **state)
         assert_int_equal(plate_beside_wall(dim, 0.04), 0);
         assert_int_equal(plate_beside_wall(dim, 0.035), 0); /* off the lattice, one row fits */
         assert_int_equal(plate_beside_wall(dim, 0.02), 1);
-        if (!strstr(told, "between \"tank.x0\" and \"plate\" is 0.02 m wide")) fail_msg("%s", told);
+        if (!strstr(logged, "between \"tank.x0\" and \"plate\" is 0.02 m wide"))
+            fail_msg("%s", logged);
         assert_int_equal(plate_beside_wall(dim, 0.03), 1);
     }
 }
@@ -96,8 +97,8 @@ static void under_a_plate(void **state)
             const double lo[3] = {0.3, rows * 0.02, 0}, hi[3] = {0.3, 0.2, 0.2};
             ASSERT_OK(sim, mps_baffle_add(sim, "baffle", lo, hi, NULL));
             assert_int_equal(warnings(sim), rows == 1);
-            if (rows == 1 && !strstr(told, "between \"baffle\" and the wall at (0.3, 0, "))
-                fail_msg("%s", told);
+            if (rows == 1 && !strstr(logged, "between \"baffle\" and the wall at (0.3, 0, "))
+                fail_msg("%s", logged);
         }
 }
 
@@ -128,8 +129,8 @@ static void in_a_solid(void **state)
         ASSERT_OK(sim, mps_solid_add(sim, &solid));
         assert_int_equal(warnings(sim), k == 0); /* a row of the lattice is in the middle */
         if (k == 0 &&
-            !strstr(told, "between \"blocks\" and \"blocks\" is 0.02 m wide, 1 dp, at (0.3, "))
-            fail_msg("%s", told);
+            !strstr(logged, "between \"blocks\" and \"blocks\" is 0.02 m wide, 1 dp, at (0.3, "))
+            fail_msg("%s", logged);
     }
 }
 

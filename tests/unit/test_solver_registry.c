@@ -14,13 +14,13 @@
 
 /* ---- a solver and a preconditioner with prescribed results ---- */
 
-static int live;              /* states alive */
-static int create_result;     /* what create answers */
-static void *got_user;        /* value of *self on entry to the last create */
-static mps_allocator made_by; /* the allocator that create got */
-static mps_ppe_result told;   /* what solve reports */
-static double told_p;         /* its resulting pressure */
-static mps_ppe_problem seen;  /* the problem it got */
+static int live;                /* states alive */
+static int create_result;       /* what create answers */
+static void *got_user;          /* value of *self on entry to the last create */
+static mps_allocator made_by;   /* the allocator that create got */
+static mps_ppe_result reported; /* what solve reports */
+static double reported_p;       /* its resulting pressure */
+static mps_ppe_problem seen;    /* the problem it got */
 
 static int dummy_create(const mps_allocator *allocator, void **self)
 {
@@ -44,8 +44,8 @@ static void dummy_solve(void *self, const mps_ppe_problem *problem,
 {
     (void)self, (void)pc, (void)pc_self;
     seen = *problem;
-    p[0] = told_p;
-    *result = told;
+    p[0] = reported_p;
+    *result = reported;
 }
 
 static int dummy_setup(void *self, const mps_ppe_problem *problem)
@@ -92,8 +92,8 @@ static int make_sim(void **state)
     mps_config_init(&config, sizeof config);
     config.dp = 0.01;
     live = create_result = 0;
-    told = (mps_ppe_result){.struct_size = sizeof told};
-    told_p = 0;
+    reported = (mps_ppe_result){.struct_size = sizeof reported};
+    reported_p = 0;
     return mps_sim_create(&config, (mps_sim **)state);
 }
 
@@ -345,19 +345,19 @@ static void test_solve_policy(void **state)
     };
     assert_int_equal(mps_solver_register(sim, &ops), MPS_OK);
     assert_int_equal(mps_solver_use(sim, "my", NULL), MPS_OK);
-    told_p = 2; /* the solution */
+    reported_p = 2; /* the solution */
     for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
-        told = (mps_ppe_result){sizeof told, cases[k].reason, 17, 0, 0.25, 0.5, 0};
+        reported = (mps_ppe_result){sizeof reported, cases[k].reason, 17, 0, 0.25, 0.5, 0};
         expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), cases[k].status,
                      cases[k].text);
         assert_int_equal(result.iterations, 17);
     }
     assert_true(seen.tolerance == 1e-6 && seen.divergence == 1e-4 && seen.max_iterations == 2000);
-    told.reason = MPS_PPE_CONVERGED;
-    told_p = 0; /* a plug-in that claims too much */
+    reported.reason = MPS_PPE_CONVERGED;
+    reported_p = 0; /* a plug-in that claims too much */
     assert_int_equal(mps__solvers_solve(s, &problem, &p, &result), MPS_W_NOT_CONVERGED);
     assert_true(result.residual == 1);
-    told_p = NAN;
+    reported_p = NAN;
     expect_error(sim, mps__solvers_solve(s, &problem, &p, &result), MPS_E_SOLVER, "NaN");
     assert_int_equal(result.reason, MPS_PPE_NAN);
 }

@@ -3,7 +3,7 @@
 #include "phase_fixture.h"
 #include <stdbool.h>
 
-enum { ROOM = 4000 };
+enum { CAPACITY = 4000 };
 static const double TAU = 7, CLIP = 0.12, STRAIN = 0.9, GAIN = 0.6, FIRM = 0.05, RAPID = 0.4,
                     TORN = 0.06, FORWARD = 0.3, PACE = 0.8, ASIDE = 0.7;
 
@@ -38,7 +38,7 @@ static const mps_stage *stage;
 static const mps_view *view;
 static const double *rho, *row_rho;
 static const int32_t *region;
-static double v[3 * ROOM], delta[ROOM], *solid;
+static double v[3 * CAPACITY], delta[CAPACITY], *solid;
 static struct {
     int64_t fluid, walls, mixed, limited, corners, slipped, torn, spray;
     double worst;
@@ -89,7 +89,7 @@ static void relative(void)
 /* Walls keep what is normal to them of their velocity; in corners in 2-D all of it. */
 static void slip(void)
 {
-    static double mean[3 * ROOM];
+    static double mean[3 * CAPACITY];
     const int dim = view->dim;
     memset(mean, 0, sizeof mean);
     for (int64_t i = 0; i < view->n; i++) {
@@ -217,7 +217,7 @@ static int compare(mps_stage *s)
     solid = mps_stage_scratch(s, s->view->n);
     stage = s;
     view = s->view;
-    assert_true(view->n <= ROOM && is_solid && solid);
+    assert_true(view->n <= CAPACITY && is_solid && solid);
     rho = s->data[DENSITY];
     row_rho = s->data[ROW_DENSITY];
     region = s->data[REGION];

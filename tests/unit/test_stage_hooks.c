@@ -39,7 +39,7 @@ static int removes(mps_stage *s)
 static int looks_beside(mps_stage *s)
 {
     int32_t *m = mark_fluid(s, 1), *beside = mps_stage_scratch_integers(s, s->view->n);
-    const int failed = mps_stage_beside(s, m, beside);
+    const int failed = mps_stage_adjacent(s, m, beside);
     if (!failed) count(s, beside);
     return failed;
 }
@@ -167,12 +167,12 @@ static int voids(mps_stage *s)
 /* Arrays that are missing. */
 static int beside_nothing(mps_stage *s)
 {
-    return mps_stage_beside(s, NULL, mark_fluid(s, 0));
+    return mps_stage_adjacent(s, NULL, mark_fluid(s, 0));
 }
 
 static int beside_nowhere(mps_stage *s)
 {
-    return mps_stage_beside(s, mark_fluid(s, 0), NULL);
+    return mps_stage_adjacent(s, mark_fluid(s, 0), NULL);
 }
 
 static int bodies_of_nothing(mps_stage *s)
@@ -214,7 +214,7 @@ typedef struct call {
 static const call calls[] = {
     {"mps_stage_add", adds, 1 << MPS_POPULATE},
     {"mps_stage_remove", removes, 1 << MPS_POPULATE},
-    {"mps_stage_beside", looks_beside, AFTER_SEARCH},
+    {"mps_stage_adjacent", looks_beside, AFTER_SEARCH},
     {"mps_stage_bodies", finds_bodies, AFTER_SEARCH},
     {"mps_stage_densities", densities, ALL},
     {"mps_stage_fail", fails, 0},
@@ -231,8 +231,8 @@ static const call calls[] = {
     {"mps_stage_state", state, AFTER_SEARCH},
     {"mps_stage_state_get", state_get, ALL},
     {"mps_stage_voids", voids, FROM(MPS_PREPARE)},
-    {"mps_stage_beside", beside_nothing, 0},
-    {"mps_stage_beside", beside_nowhere, 0},
+    {"mps_stage_adjacent", beside_nothing, 0},
+    {"mps_stage_adjacent", beside_nowhere, 0},
     {"mps_stage_bodies", bodies_of_nothing, 0},
     {"mps_stage_bodies", bodies_nowhere, 0},
     {"mps_stage_remove", removes_nothing, 0},

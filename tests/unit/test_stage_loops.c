@@ -259,7 +259,7 @@ static int check_beside(mps_stage *s)
         member[i] = v->id[i] % 50 == 0 ? 3 : 0; /* anything but 0 */
         beside[i] = 77;
     }
-    mps_stage_beside(s, member, beside);
+    mps_stage_adjacent(s, member, beside);
     for (int64_t i = 0; i < v->n; i++) {
         int32_t wanted = 0;
         for (int64_t j = 0; j < v->n; j++) {

@@ -51,7 +51,8 @@ static void sharp_edges(void **state)
     ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, -1, 0, NULL, &count), MPS_E_ARG, "0..pi");
     ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 4, 0, NULL, &count), MPS_E_ARG, "0..pi");
     ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, 1, NULL, &count), MPS_E_ARG, "ends");
-    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, -1, ends[0], &count), MPS_E_ARG, "room");
+    ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, -1, ends[0], &count), MPS_E_ARG,
+                   "capacity");
     ASSERT_REFUSED(sim, mps_stl_edges(sim, path, &stl, 1, 0, NULL, NULL), MPS_E_ARG, "count");
     ASSERT_REFUSED(sim, mps_stl_edges(sim, "none.stl", &stl, 1, 0, NULL, &count), MPS_E_IO, "none");
     stl.scale = -1;

@@ -50,26 +50,27 @@ static void init_knows_sizes(void **state)
         union {
             max_align_t align;
             unsigned char byte[1024];
-        } room;
+        } buffer;
         for (size_t size = 0; size < all[k].size; size++) {
-            memset(&room, 7, sizeof room);
+            memset(&buffer, 7, sizeof buffer);
             if (size > 0 && size == older_size(all[k].name)) {
-                assert_int_equal(all[k].init(&room, size), MPS_OK);
-                for (size_t b = size; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], 7);
+                assert_int_equal(all[k].init(&buffer, size), MPS_OK);
+                for (size_t b = size; b < sizeof buffer.byte; b++)
+                    assert_int_equal(buffer.byte[b], 7);
                 continue;
             }
-            if (all[k].init(&room, size) != MPS_E_ARG)
+            if (all[k].init(&buffer, size) != MPS_E_ARG)
                 fail_msg("%s_init() took %zu bytes", all[k].name, size);
-            for (size_t b = 0; b < sizeof room.byte; b++) assert_int_equal(room.byte[b], 7);
+            for (size_t b = 0; b < sizeof buffer.byte; b++) assert_int_equal(buffer.byte[b], 7);
         }
         const size_t newer = all[k].size + 24;
-        uint32_t told;
+        uint32_t logged;
         assert_int_equal(all[k].init(NULL, all[k].size), MPS_E_ARG);
-        assert_int_equal(all[k].init(&room, newer), MPS_OK);
-        memcpy(&told, &room, sizeof told);
-        assert_int_equal(told, newer);
-        for (size_t b = all[k].size; b < sizeof room.byte; b++)
-            assert_int_equal(room.byte[b], b < newer ? 0 : 7);
+        assert_int_equal(all[k].init(&buffer, newer), MPS_OK);
+        memcpy(&logged, &buffer, sizeof logged);
+        assert_int_equal(logged, newer);
+        for (size_t b = all[k].size; b < sizeof buffer.byte; b++)
+            assert_int_equal(buffer.byte[b], b < newer ? 0 : 7);
     }
 }
 

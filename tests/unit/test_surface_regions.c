@@ -4,7 +4,7 @@
 #include "phase_fixture.h"
 #include <stdbool.h>
 
-enum { ROOM = 3000 };
+enum { CAPACITY = 3000 };
 
 enum { NUMBER, REGION, WETTED, USES };
 static const mps_use uses[USES] = {[NUMBER] = {"number_density", MPS_USE_READ},
@@ -103,7 +103,7 @@ static void own_sums(const sums *c, int32_t *region)
 /* Particles next to spray, then particles where the surface meets a wall. */
 static void beside_others(const sums *c, double a0, int32_t *region)
 {
-    static int32_t old[ROOM];
+    static int32_t old[CAPACITY];
     const double re = v->near.re;
     for (int pass = 0; pass < 2; pass++) {
         memcpy(old, region, (size_t)v->n * sizeof *old);
@@ -159,13 +159,13 @@ static double wet(int64_t i, const int32_t *region, double full)
 
 static int compare(mps_stage *s)
 {
-    static sums c[ROOM];
-    static int32_t region[ROOM];
+    static sums c[CAPACITY];
+    static int32_t region[CAPACITY];
     const double *number = s->data[NUMBER], *wetted = s->data[WETTED];
     const int32_t *got = s->data[REGION];
     double full, a0;
     v = s->view;
-    assert_true(v->n <= ROOM);
+    assert_true(v->n <= CAPACITY);
     assert_int_equal(mps_kernel_find("improved", &kernel), MPS_OK);
     half_space(&full, &a0);
     memset(region, -1, sizeof region);

@@ -288,7 +288,7 @@ static void plates_on_the_lattice(void **state)
             else
                 ASSERT_OK(sim, mps_plate_add(sim, "plate", lo, edge, dim == 3 ? edge2 : NULL));
             assert_string_equal(warned, "");
-            assert_int_equal(sim->world.lists.screens.list[0].axis, 0);
+            assert_int_equal(sim->world.lists.occluders.list[0].axis, 0);
             const mps__particles *s = &sim->world.particles;
             for (int64_t i = 0; i < s->n; i++)
                 if (s->kind[i] == MPS_WALL && fabs(s->x[i * dim] - x) < 1e-9)

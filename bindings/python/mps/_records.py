@@ -132,7 +132,7 @@ def make(kind: type[S], given: dict[str, Any] | None = None, what: str = "") -> 
 
 
 # Entries of the layer below: sizes, functions with their first arguments, buffers of errors.
-_OWN = {"struct_size", "reserved", "error", "error_size", "log", "log_user", "say", "say_user", "user"}
+_OWN = {"struct_size", "reserved", "error", "error_size", "log", "log_user", "print", "print_user", "user"}
 
 
 @functools.cache

@@ -146,7 +146,7 @@ mps_ppe_ranks._fields_ = [
     ("struct_size", c_uint32), ("rank", c_int32), ("ranks", c_int32), ("reserved", c_int32), ("ghosts", c_int64),
     ("rows", c_int64), ("first", c_int64), ("order", POINTER(c_int32)),
     ("owner", CFUNCTYPE(c_int, c_void_p, c_int64, POINTER(c_double), POINTER(c_int32))),
-    ("share", CFUNCTYPE(c_int, c_void_p, POINTER(c_double))),
+    ("halo", CFUNCTYPE(c_int, c_void_p, POINTER(c_double))),
     ("reduce", CFUNCTYPE(c_int, c_void_p, c_int32, c_size_t, c_void_p, mps_combine_fn)),
     ("gather", CFUNCTYPE(c_int, c_void_p, c_void_p, POINTER(c_int64), c_void_p)),
     ("connect", CFUNCTYPE(c_int, c_void_p, c_int32, POINTER(c_int32), POINTER(c_int64), POINTER(mps_route))),
@@ -236,7 +236,7 @@ mps_job_config._fields_ = [
     ("checkpoint", c_double), ("gravity", c_double), ("average", c_double), ("frames", c_int32), ("picture_count", c_int32),
     ("picture_t", POINTER(c_double)), ("overwrite", c_int32), ("pieces", c_int32), ("tank_frame", c_int32), ("report", c_int32),
     ("profile", c_int32), ("quiet", c_int32), ("signals", c_int32), ("trace", c_int32), ("film", c_int32), ("threads", c_int32),
-    ("page_bytes", c_int64), ("ranks", POINTER(mps_job_ranks)), ("say", mps_job_say_fn), ("say_user", c_void_p),
+    ("page_bytes", c_int64), ("ranks", POINTER(mps_job_ranks)), ("print", mps_job_print_fn), ("print_user", c_void_p),
     ("error", POINTER(c_char)), ("error_size", c_size_t), ("dp", c_double), ("device", c_char_p), ("peaks", c_int32),
     ("reserved", c_int32), ("checkpoint_clock", c_double),
 ]
@@ -282,18 +282,18 @@ mps_launch._fields_ = [
     ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("file", c_char_p), ("name", c_char_p),
     ("view", POINTER(mps_view)), ("fields", c_void_p), ("bytes", c_uint64), ("sums", c_int32), ("maxima", c_int32),
     ("run", CFUNCTYPE(None, c_void_p, c_int64, c_int64, POINTER(mps_exact), POINTER(c_double))), ("host", c_void_p),
-    ("unless", POINTER(c_int64)), ("skip", POINTER(c_uint8)),
+    ("cancel", POINTER(c_int64)), ("mask", POINTER(c_uint8)),
 ]
 mps_device_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("self", c_void_p),
-    ("room", CFUNCTYPE(c_void_p, c_void_p, c_uint64)), ("give", CFUNCTYPE(None, c_void_p, c_void_p)),
+    ("alloc", CFUNCTYPE(c_void_p, c_void_p, c_uint64)), ("free", CFUNCTYPE(None, c_void_p, c_void_p)),
     ("upload", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
     ("download", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
     ("clear", CFUNCTYPE(c_int, c_void_p, c_void_p, c_uint64)), ("copy", CFUNCTYPE(c_int, c_void_p, c_void_p, c_void_p, c_uint64)),
-    ("rows", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch))),
-    ("values", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
-    ("gather", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), c_void_p)), ("wait", CFUNCTYPE(c_int, c_void_p)),
-    ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("outdated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
+    ("launch", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch))),
+    ("reduce", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
+    ("reduce_async", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), c_void_p)), ("wait", CFUNCTYPE(c_int, c_void_p)),
+    ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("invalidated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
     ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)),
 ]
 mps_device_info._fields_ = [

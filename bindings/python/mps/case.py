@@ -244,7 +244,7 @@ class Job(Owner):
         config = make(T.mps_job_config, {"folder": str(folder), "command": " ".join(sys.argv),
                                          "signals": threading.current_thread() is threading.main_thread(), **options}, "run")
         config.error, config.error_size = ctypes.cast(error, POINTER(ctypes.c_char)), len(error)
-        self._say = config.say = T.mps_job_say_fn(self._calls.guard(lambda _u, kind, what: self._told(say, kind, errors.in_python(text(what))), None))
+        self._say = config.print = T.mps_job_print_fn(self._calls.guard(lambda _u, kind, what: self._told(say, kind, errors.in_python(text(what))), None))
         job, sim = POINTER(T.mps_job)(), POINTER(T.mps_sim)()
         with case._held as pointer:
             status = c.mps_case_job(pointer, byref(config), byref(job), byref(sim))

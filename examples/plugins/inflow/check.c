@@ -37,7 +37,7 @@ typedef struct run {
     state *end; /* on rank 0 */
 } run;
 
-static int say(mps_sim *sim, const char *what)
+static int report(mps_sim *sim, const char *what)
 {
     fprintf(stderr, "%s: %s\n", what, sim ? mps_sim_error(sim) : "no handle");
     return 1;
@@ -67,17 +67,17 @@ static int build(const run *r, int32_t rank, int32_t *wanted, mps_sim **sim)
     tank.size[0] = tank.size[1] = 0.3;
     tank.open_top = 1;
     *sim = NULL;
-    if (mps_sim_create(&config, sim) < 0) return say(*sim, "create");
+    if (mps_sim_create(&config, sim) < 0) return report(*sim, "create");
     if (r->team) {
         const mps_ranks_ops ops = kit_engine_ops(r->team, rank);
-        if (mps_sim_ranks_set(*sim, &ops) < 0) return say(*sim, "ranks");
+        if (mps_sim_ranks_set(*sim, &ops) < 0) return report(*sim, "ranks");
     }
     if (mps_tank_add(*sim, &tank, NULL) < 0 || mps_fill_box_add(*sim, 0, lo, hi, NULL, NULL) < 0 ||
         mps_model_register(*sim, &inflow_jet) < 0 || mps_model_use(*sim, "inflow.jet") < 0 ||
         mps_model_register(*sim, &fails) < 0 || mps_model_use(*sim, "fail.on_demand") < 0)
-        return say(*sim, "set-up");
+        return report(*sim, "set-up");
     for (size_t k = 0; k < sizeof set / sizeof *set; k++)
-        if (mps_model_set(*sim, "inflow", set[k].key, set[k].value) < 0) return say(*sim, "set");
+        if (mps_model_set(*sim, "inflow", set[k].key, set[k].value) < 0) return report(*sim, "set");
     return 0;
 }
 
@@ -85,8 +85,8 @@ static int steps(mps_sim *sim, const run *r, int32_t *wanted, int from, int to)
 {
     for (int k = from; k < to; k++) {
         for (*wanted = r->failing && k % EVERY == 0; *wanted; *wanted = 0)
-            if (mps_step(sim, 1, NULL) != MPS_E_PLUGIN) return say(sim, "a step should fail");
-        if (mps_step(sim, 1, NULL) < 0) return say(sim, "step");
+            if (mps_step(sim, 1, NULL) != MPS_E_PLUGIN) return report(sim, "a step should fail");
+        if (mps_step(sim, 1, NULL) < 0) return report(sim, "step");
     }
     return 0;
 }
@@ -95,11 +95,11 @@ static int note(mps_sim *sim, state *end)
 {
     static const char *const names[] = {"position", "velocity", "pressure", "inflow_rows"};
     mps_lease id = {.struct_size = sizeof id}, f = {.struct_size = sizeof f};
-    if (mps_lease_begin(sim, "id", MPS_READ, &id) < 0 || id.count > MOST) return say(sim, "id");
+    if (mps_lease_begin(sim, "id", MPS_READ, &id) < 0 || id.count > MOST) return report(sim, "id");
     end->n = id.count;
     for (int64_t i = 0; i < id.count; i++) end->value[i][0] = (double)id.ids[i];
     for (int k = 0, column = 1; k < 4; column += f.stride, k++) {
-        if (mps_lease_begin(sim, names[k], MPS_READ, &f) < 0) return say(sim, names[k]);
+        if (mps_lease_begin(sim, names[k], MPS_READ, &f) < 0) return report(sim, names[k]);
         for (int64_t i = 0; i < f.count; i++)
             for (int c = 0; c < f.stride; c++) end->value[i][column + c] = f.data[i * f.stride + c];
         mps_lease_end(sim, &f);
@@ -117,19 +117,19 @@ static void run_rank(void *argument, int32_t rank)
     int bad = build(r, rank, &wanted, &sim) ||
               steps(sim, r, &wanted, 0, r->checkpoint ? MIDDLE : STEPS);
     if (!bad && r->checkpoint) {
-        bad = mps_checkpoint_write(sim, FILE_NAME) < 0 && say(sim, "write");
+        bad = mps_checkpoint_write(sim, FILE_NAME) < 0 && report(sim, "write");
         mps_sim_destroy(sim);
         bad = bad || build(r, rank, &wanted, &sim) ||
-              (mps_checkpoint_read(sim, FILE_NAME) < 0 && say(sim, "read")) ||
+              (mps_checkpoint_read(sim, FILE_NAME) < 0 && report(sim, "read")) ||
               steps(sim, r, &wanted, MIDDLE, STEPS);
     }
-    if (!bad && mps_energy_get(sim, &e) < 0) bad = say(sim, "energy");
-    if (!bad && mps_particles_gather(sim) < 0) bad = say(sim, "gather");
+    if (!bad && mps_energy_get(sim, &e) < 0) bad = report(sim, "energy");
+    if (!bad && mps_particles_collect(sim) < 0) bad = report(sim, "gather");
     if (!bad && rank == 0) {
         r->end->energy = e;
         bad = note(sim, r->end);
     }
-    mps_particles_gather_end(sim);
+    mps_particles_collect_end(sim);
     mps_sim_destroy(sim);
     r->bad[rank] = bad;
 }

@@ -59,7 +59,7 @@ int mps__peaks_due(mps_job *job)
     if (!job->peak_frames) return 0;
     const bool due = mps__job_first(job) && job->peaks.due;
     job->peaks.due = false;
-    return mps__job_told(job, due ? DUE_PEAK : 0);
+    return mps__job_broadcast(job, due ? DUE_PEAK : 0);
 }
 
 static int is_wanted(void *user, double t)
@@ -87,7 +87,7 @@ void mps__frames_begin(mps_job *job)
     job->frame_t = -1;
     /* rows before a checkpoint have had their frames written and removed */
     job->peaks.due = job->peaks.changed = false;
-    if (c->frames == 0 || !(pieces || mps__job_gather(job))) return;
+    if (c->frames == 0 || !(pieces || mps__job_collect(job))) return;
     mps__job_note(job, mps_frames_open(job->sim, c->folder, "frames", flags, &job->frames),
                   "frames");
     if (job->peaks.signals > 0)
@@ -97,7 +97,7 @@ void mps__frames_begin(mps_job *job)
                       "peaks");
     if (!c->resume) write_frame(job);
     job->frame = next_frame(job, job->totals.t);
-    if (!pieces) mps__job_gather_end(job);
+    if (!pieces) mps__job_collect_end(job);
 }
 
 static bool is_frame_due(const mps_job *job, double t)
@@ -163,10 +163,10 @@ void mps__drawing_do(mps_job *job, double t, int due)
     const bool whole = due & (DUE_FRAME | DUE_PEAK);
     if (frame) job->frame = next_frame(job, t);
     if (whole && apart) write_due(job, due);
-    if ((picture || (whole && !apart)) && mps__job_gather(job)) {
+    if ((picture || (whole && !apart)) && mps__job_collect(job)) {
         if (whole && !apart) write_due(job, due);
         if (mps__job_first(job) && picture) draw_next(job, t);
-        mps__job_gather_end(job);
+        mps__job_collect_end(job);
     }
     if (mps__job_first(job)) remove_peaks(job);
 }
@@ -176,18 +176,18 @@ void mps__drawing_end(mps_job *job, mps_status status)
     /* a run that continues from here has the frame times of an uninterrupted run */
     const bool frame = status != MPS_W_STOPPED;
     if (frame && is_apart(job) && status >= 0) write_frame(job);
-    if (mps__job_gather(job)) { /* false if a rank has failed */
+    if (mps__job_collect(job)) { /* false if a rank has failed */
         if (frame && !is_apart(job)) write_frame(job);
         if (mps__job_first(job)) {
             draw(job, "picture_end.png");
             if (!mps__canvas_letters())
-                mps__job_tell(job, "warning: pictures have no letters: no font can be drawn; "
-                                   "install one, as of fonts-dejavu-core, and run 'fc-cache -f'");
+                mps__job_print(job, "warning: pictures have no letters: no font can be drawn; "
+                                    "install one, as of fonts-dejavu-core, and run 'fc-cache -f'");
             for (int k = 0; k < job->figures; k++)
                 if (job->figure[k].flags & MPS_JOB_PARTICLES)
                     job->figure[k].measured = job->figure[k].value(job->figure[k].user, job->sim);
         }
-        mps__job_gather_end(job);
+        mps__job_collect_end(job);
     }
     mps_frames_close(job->frames);
     mps_frames_close(job->peak_frames);

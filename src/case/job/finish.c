@@ -49,41 +49,41 @@ static void close_tables(mps_job *job)
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
         if (!mps__table_close(all[k])) {
             job->output_failed = true;
-            mps__job_tell(job, "%s: could not be written completely: %s", all[k]->path,
-                          strerror(all[k]->error));
+            mps__job_print(job, "%s: could not be written completely: %s", all[k]->path,
+                           strerror(all[k]->error));
         }
 }
 
-static void say_failure(mps_job *job, int32_t code, mps_status status)
+static void print_failure(mps_job *job, int32_t code, mps_status status)
 {
     const job_totals *s = &job->totals;
     const table *failed = mps__job_failed_table(job);
     if (code == MPS_EXIT_INTERRUPTED)
-        mps__job_tell(job,
-                      "interrupted at t = %.6g s after %lld steps; outputs are complete up to "
-                      "there; %s%s continues",
-                      s->t, (long long)s->steps, mps__resume_words(job), mps__resume_folder(job));
+        mps__job_print(job,
+                       "interrupted at t = %.6g s after %lld steps; outputs are complete up to "
+                       "there; %s%s continues",
+                       s->t, (long long)s->steps, mps__resume_words(job), mps__resume_folder(job));
     else if (status < 0)
-        mps__job_tell(job, "%s at t = %.6g s, step %lld: %s", mps_status_name(status), s->t,
-                      (long long)s->steps + 1, job->error);
+        mps__job_print(job, "%s at t = %.6g s, step %lld: %s", mps_status_name(status), s->t,
+                       (long long)s->steps + 1, job->error);
     else if (code != MPS_EXIT_OK && failed)
-        mps__job_tell(job, "stopped at t = %.6g s, outputs cannot be written: %s; %s%s", s->t,
-                      strerror(failed->error), mps__folder_advice(failed->error),
-                      job->checkpoint_t > 0 ? "; then continue from the last checkpoint" : "");
+        mps__job_print(job, "stopped at t = %.6g s, outputs cannot be written: %s; %s%s", s->t,
+                       strerror(failed->error), mps__folder_advice(failed->error),
+                       job->checkpoint_t > 0 ? "; then continue from the last checkpoint" : "");
     else if (code != MPS_EXIT_OK)
-        mps__job_tell(job, "%s", job->error[0] ? job->error : "an output could not be written");
+        mps__job_print(job, "%s", job->error[0] ? job->error : "an output could not be written");
 }
 
-static void say_end(mps_job *job)
+static void print_end(mps_job *job)
 {
     const job_totals *s = &job->totals;
-    mps__job_tell(job,
-                  "t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), "
-                  "%lld particles lost, outputs in %s%s",
-                  s->t, (long long)s->steps_here, s->wall_s,
-                  s->steps_here ? 1e3 * s->step_s / (double)s->steps_here : 0,
-                  s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost,
-                  job->config.folder, job->config.report ? "; report.html there shows them" : "");
+    mps__job_print(job,
+                   "t = %.6g s, %lld steps in %.1f s (%.2f ms a step, %.1f pressure iterations), "
+                   "%lld particles lost, outputs in %s%s",
+                   s->t, (long long)s->steps_of_run, s->wall_s,
+                   s->steps_of_run ? 1e3 * s->step_s / (double)s->steps_of_run : 0,
+                   s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost,
+                   job->config.folder, job->config.report ? "; report.html there shows them" : "");
 }
 
 /* Log the time of the steps of rank 0. */
@@ -106,8 +106,8 @@ static int32_t report(mps_job *job, mps_status status)
                                              : mps_status_name(MPS_E_IO);
     if (!mps__summary_save(job) || !mps__page_save(job))
         code = code == MPS_EXIT_OK ? MPS_EXIT_FAILED : code;
-    say_failure(job, code, status);
-    if (!job->config.quiet && code != MPS_EXIT_USAGE) say_end(job);
+    print_failure(job, code, status);
+    if (!job->config.quiet && code != MPS_EXIT_USAGE) print_end(job);
     if (job->config.profile && code != MPS_EXIT_USAGE) show_profile(job);
     /* refused before its first step: its files are no run that has to be kept */
     if (code == MPS_EXIT_USAGE) mps__resume_forget(job, NULL);
@@ -126,5 +126,5 @@ int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double c
     if (mps__job_first(job)) close_tables(job);
     job->totals.wall_s = wall_s + mps__progress_clock() - begin;
     job->totals.cpu_s = cpu_s;
-    return mps__job_told(job, mps__job_first(job) ? report(job, status) : 0);
+    return mps__job_broadcast(job, mps__job_first(job) ? report(job, status) : 0);
 }

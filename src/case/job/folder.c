@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 enum {
-    FOLDER_ROOM = 65536, /* bytes that must fit on the disk */
+    FOLDER_CAPACITY = 65536, /* bytes that must fit on the disk */
     FOLDER_HOST = 128,
     FOLDER_STALE = 900 /* [s] age at which an unrenewed lock of another machine expires */
 };
@@ -38,7 +38,7 @@ const char *mps__folder_advice(int error)
         return "the disk can only be read; choose a folder on another one with --out";
     case ENOSPC:
     case EDQUOT:
-        return "the disk is full; make room on it, or choose a folder on another one with --out";
+        return "the disk is full; free space on it, or choose a folder on another one with --out";
     default:
         return "must be a folder that can be written";
     }
@@ -104,9 +104,9 @@ static mps_status folder_refuse_locked(const folder *f, int fd, char *error, siz
 }
 
 /* Whether the disk has space for the first files. A full disk often accepts a name and no data. */
-static bool folder_has_room(int fd)
+static bool folder_has_space(int fd)
 {
-    static const char zeros[FOLDER_ROOM];
+    static const char zeros[FOLDER_CAPACITY];
     const ssize_t written = pwrite(fd, zeros, sizeof zeros, 0);
     if (written >= 0 && written < (ssize_t)sizeof zeros) errno = ENOSPC;
     const bool good = written == (ssize_t)sizeof zeros && fsync(fd) == 0;
@@ -184,7 +184,7 @@ static mps_status folder_lock(folder *f, char *error, size_t size)
         if (folder_is_current(fd, path)) {
             f->fd = fd;
             memcpy(f->lock, path, sizeof path);
-            const bool good = folder_has_room(fd) && folder_sign(fd);
+            const bool good = folder_has_space(fd) && folder_sign(fd);
             return good ? MPS_OK : folder_refuse(f, errno, error, size);
         }
         close(fd);
@@ -214,7 +214,7 @@ static mps_status folder_check(const folder *f, char *error, size_t size)
              "--out %s: there is an earlier run (%s); --resume %s, --overwrite removes it, or "
              "choose another folder with --out",
              f->path, there,
-             folder_has(f, FILES[0]) ? "goes on from its checkpoint"
+             folder_has(f, FILES[0]) ? "continues from its checkpoint"
                                      : "begins it again, since it has no checkpoint");
     return MPS_E_STATE;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* A job as its program sees it: opening, texts, known points and inputs. Its columns are in columns.c and added.c, stepping is in stepping.c. */
+/* A job as its program uses it: opening, texts, known points and inputs. Its columns are in
+ * columns.c and added.c, stepping is in stepping.c. */
 #include "grow.h"
 #include "run.h"
 #include <math.h>
@@ -16,10 +17,10 @@ enum {
 /* ---- texts ---- */
 
 /* Default without a callback of the program: messages to stderr, tables to stdout. */
-static void say(mps_job *job, int32_t kind, const char *text)
+static void print(mps_job *job, int32_t kind, const char *text)
 {
-    if (job->config.say) {
-        job->config.say(job->config.say_user, kind, text);
+    if (job->config.print) {
+        job->config.print(job->config.print_user, kind, text);
         return;
     }
     FILE *out = kind == MPS_JOB_TABLE ? stdout : stderr;
@@ -30,11 +31,11 @@ static void say(mps_job *job, int32_t kind, const char *text)
 void mps__job_show(mps_job *job, int32_t kind, const char *text)
 {
     const char *clear = kind == MPS_JOB_PROGRESS ? "" : mps__progress_clear(&job->progress);
-    if (clear[0]) say(job, MPS_JOB_PROGRESS, clear);
-    say(job, kind, text);
+    if (clear[0]) print(job, MPS_JOB_PROGRESS, clear);
+    print(job, kind, text);
 }
 
-void mps__job_tell(mps_job *job, const char *format, ...)
+void mps__job_print(mps_job *job, const char *format, ...)
 {
     char text[2 * JOB_ERROR];
     va_list values;
@@ -80,9 +81,9 @@ const char *mps_job_error(const mps_job *job)
     return job ? job->error : "";
 }
 
-void mps_job_say(mps_job *job, const char *text)
+void mps_job_print(mps_job *job, const char *text)
 {
-    if (job && text && mps__job_first(job) && !job->config.quiet) mps__job_tell(job, "%s", text);
+    if (job && text && mps__job_first(job) && !job->config.quiet) mps__job_print(job, "%s", text);
 }
 
 void mps_job_log(void *user, int level, const char *text)
@@ -91,9 +92,9 @@ void mps_job_log(void *user, int level, const char *text)
     if (!job || !text || !mps__job_first(job) || job->config.quiet || job->messages > MESSAGES)
         return;
     if (job->messages++ == MESSAGES)
-        mps__job_tell(job, "further messages are not shown");
+        mps__job_print(job, "further messages are not shown");
     else
-        mps__job_tell(job, "%s%s", level >= MPS_LOG_WARNING ? "warning: " : "", text);
+        mps__job_print(job, "%s%s", level >= MPS_LOG_WARNING ? "warning: " : "", text);
 }
 
 void mps_job_stop(mps_job *job)

@@ -14,7 +14,7 @@ static bool save_page(mps_job *job)
     config.error = error;
     config.error_size = sizeof error;
     if (mps_page_write(job->place.path, &config, NULL) == MPS_OK) return true;
-    mps__job_tell(job, "report.html: %s", error);
+    mps__job_print(job, "report.html: %s", error);
     return false;
 }
 
@@ -25,17 +25,17 @@ static void save_views(mps_job *job)
     char error[FOLDER_PATH + 400] = "";
     mps_film_config config;
     if (job->config.frames == 0) {
-        if (job->config.film) mps__job_tell(job, "no film: the run has no frames");
+        if (job->config.film) mps__job_print(job, "no film: the run has no frames");
         return;
     }
     if (mps_paraview_save(job->place.path, error, sizeof error) != MPS_OK)
-        mps__job_tell(job, "warning: no paraview.py: %s", error);
+        mps__job_print(job, "warning: no paraview.py: %s", error);
     if (!job->config.film) return;
     mps_film_config_init(&config, sizeof config);
     config.error = error;
     config.error_size = sizeof error;
     if (mps_film_save(job->place.path, &config, NULL) != MPS_OK)
-        mps__job_tell(job, "warning: no film: %s", error);
+        mps__job_print(job, "warning: no film: %s", error);
 }
 
 bool mps__page_save(mps_job *job)

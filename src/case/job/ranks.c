@@ -11,7 +11,7 @@ static const double PATIENCE = 20;
 
 /* What ranks reduce; LEAVES: 0, or 1 + exit code; TELLS: of the ranks that fail, the lowest has the
  * largest number. */
-enum { VALUE, LEAVES, TELLS, VALUES };
+enum { VALUE, LEAVES, PRINTS, VALUES };
 
 bool mps__job_first(const mps_job *job)
 {
@@ -33,7 +33,7 @@ int32_t mps__job_most(mps_job *job, int32_t value)
     return values[VALUE];
 }
 
-int32_t mps__job_told(mps_job *job, int32_t value)
+int32_t mps__job_broadcast(mps_job *job, int32_t value)
 {
     return mps__job_most(job, mps__job_first(job) ? value : 0);
 }
@@ -42,34 +42,34 @@ bool mps__job_agree(mps_job *job)
 {
     const mps_job_ranks *r = job->config.ranks;
     const int32_t number = r ? r->count - r->rank : 1;
-    int32_t values[VALUES] = {[VALUE] = job->code, [TELLS] = job->code ? number : 0};
+    int32_t values[VALUES] = {[VALUE] = job->code, [PRINTS] = job->code ? number : 0};
     if (mps__job_ranks(job) > 1) r->largest(r->user, VALUES, values, 0);
-    job->tells = job->code && values[TELLS] == number;
+    job->prints = job->code && values[PRINTS] == number;
     job->code = values[LEAVES] ? values[LEAVES] - 1 : values[VALUE];
     return !values[LEAVES] && job->code == 0;
 }
 
-bool mps__job_gather(const mps_job *job)
+bool mps__job_collect(const mps_job *job)
 {
-    return mps__job_ranks(job) == 1 || mps_particles_gather(job->sim) == MPS_OK;
+    return mps__job_ranks(job) == 1 || mps_particles_collect(job->sim) == MPS_OK;
 }
 
-void mps__job_gather_end(const mps_job *job)
+void mps__job_collect_end(const mps_job *job)
 {
-    if (mps__job_ranks(job) > 1) mps_particles_gather_end(job->sim);
+    if (mps__job_ranks(job) > 1) mps_particles_collect_end(job->sim);
 }
 
 /* ---- programs ---- */
 
-int32_t mps_job_ranks_leave(const mps_job_ranks *ranks, int32_t code, int32_t *speak)
+int32_t mps_job_ranks_exit(const mps_job_ranks *ranks, int32_t code, int32_t *speak)
 {
     *speak = 1;
     if (!ranks || ranks->count == 1) return code;
     const int32_t number = ranks->count - ranks->rank;
-    int32_t values[VALUES] = {[LEAVES] = code + 1, [TELLS] = number};
-    const bool heard = ranks->largest(ranks->user, VALUES, values, PATIENCE) != 0;
-    *speak = !heard || values[TELLS] == number;
-    return heard ? values[LEAVES] - 1 : -1;
+    int32_t values[VALUES] = {[LEAVES] = code + 1, [PRINTS] = number};
+    const bool received = ranks->largest(ranks->user, VALUES, values, PATIENCE) != 0;
+    *speak = !received || values[PRINTS] == number;
+    return received ? values[LEAVES] - 1 : -1;
 }
 
 mps_status mps_job_ranks_load(mps_job_ranks *ranks, char *error, size_t error_size)

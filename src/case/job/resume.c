@@ -97,7 +97,7 @@ void mps__resume_save(mps_job *job)
     char path[RESUME_PATH];
     const double begin = mps__progress_clock();
     path_of(job, path);
-    if (!mps__job_told(job, mps__job_first(job) && sync_rows(job))) return;
+    if (!mps__job_broadcast(job, mps__job_first(job) && sync_rows(job))) return;
     if (mps__job_note(job, mps_checkpoint_write(job->sim, path), "checkpoint"))
         job->checkpoint_t = job->totals.t;
     set_clock(job, mps__progress_clock() - begin);
@@ -162,8 +162,8 @@ static bool begin_again(mps_job *job)
                              job->place.path);
     job->config.resume = 0;
     if (!job->config.quiet)
-        mps__job_tell(job, "resume: the run in '%s' has no checkpoint: it begins again at t = 0",
-                      job->place.path);
+        mps__job_print(job, "resume: the run in '%s' has no checkpoint: it begins again at t = 0",
+                       job->place.path);
     return true;
 }
 
@@ -183,10 +183,10 @@ bool mps__resume_read(mps_job *job)
                              "later end",
                              t, end_option(job), job->config.t_end);
     if (!isnan(reached_end(job)) && !job->config.quiet)
-        mps__job_tell(job,
-                      "resume: the run in '%s' reached its end; its last steps from t = %g s are "
-                      "taken again; a later %s extends it",
-                      job->place.path, t, end_option(job));
+        mps__job_print(job,
+                       "resume: the run in '%s' reached its end; its last steps from t = %g s are "
+                       "taken again; a later %s extends it",
+                       job->place.path, t, end_option(job));
     job->fluid_at_start = number_of(job, "n_fluid", NULL);
     job->totals.t_before = job->checkpoint_t = t;
     job->checkpoint = next_of(job, t);

@@ -174,11 +174,11 @@ void mps__job_measure(mps_job *job, double *values)
         particles = particles || theirs;
         values[i] = theirs ? NAN : measure_column(job, &job->column[i]);
     }
-    if (!particles || !mps__job_gather(job)) return;
+    if (!particles || !mps__job_collect(job)) return;
     for (int i = 0; i < job->columns && mps__job_first(job); i++)
         if (job->column[i].flags & MPS_JOB_PARTICLES)
             values[i] = measure_column(job, &job->column[i]);
-    mps__job_gather_end(job);
+    mps__job_collect_end(job);
 }
 
 static void measure_all(mps_job *job, double t, double *row)

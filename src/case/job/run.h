@@ -78,8 +78,8 @@ typedef struct job_box {
 /* Totals of the run, for summary.json and the page. For a continued run, seconds exclude the time
  * before the checkpoint. */
 typedef struct job_totals {
-    /* steps_here: excludes steps before the checkpoint */
-    int64_t fluid, wall, dummy, steps, steps_here, lost;
+    /* steps_of_run: excludes steps before the checkpoint */
+    int64_t fluid, wall, dummy, steps, steps_of_run, lost;
     double t_before; /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed, volume_error;
     double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
@@ -140,7 +140,7 @@ struct mps_job {
     volatile sig_atomic_t stop;
     /* the first failure: its exit code, 0: none; whether this rank shows it; its text */
     int32_t code;
-    bool tells;
+    bool prints;
     char error[JOB_ERROR];
 };
 
@@ -153,7 +153,7 @@ mps_status mps__job_refuse(mps_job *job, mps_status status, const char *format, 
 /* Log a text unchanged. */
 void mps__job_show(mps_job *job, int32_t kind, const char *text);
 /* Log a message with the name of the job as prefix. */
-void mps__job_tell(mps_job *job, const char *format, ...);
+void mps__job_print(mps_job *job, const char *format, ...);
 /* Record the first failure other than one of a step. @return false on failure */
 bool mps__job_note(mps_job *job, mps_status status, const char *what);
 /* A copy, or NULL; also of NULL. */
@@ -173,13 +173,13 @@ int32_t mps__job_ranks(const mps_job *job);
 /* Maximum over all ranks. Collective call. */
 int32_t mps__job_most(mps_job *job, int32_t value);
 /* Broadcast a value of rank 0. Values are not negative. */
-int32_t mps__job_told(mps_job *job, int32_t value);
+int32_t mps__job_broadcast(mps_job *job, int32_t value);
 /* Collective call. @return false: a rank has failed, and all ranks have its code */
 bool mps__job_agree(mps_job *job);
-/* Collect the particles of all ranks on rank 0, until mps__job_gather_end(), which is valid after a
- * failure too. */
-bool mps__job_gather(const mps_job *job);
-void mps__job_gather_end(const mps_job *job);
+/* Collect the particles of all ranks on rank 0, until mps__job_collect_end(), which is valid
+ * after a failure too. */
+bool mps__job_collect(const mps_job *job);
+void mps__job_collect_end(const mps_job *job);
 
 /* ---- columns.c ---- */
 
@@ -205,7 +205,8 @@ void mps__job_measure(mps_job *job, double *values);
 bool mps__job_open_tables(mps_job *job);
 /* Open a table, or continue with its rows. @return false: the job has failed */
 bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *header, int columns);
-/* The state that the first step begins with. Its row is in the files where a run goes on: it is only what the next one is interpolated from. */
+/* The state before the first step. In a resumed run its row is in the files already: it serves
+ * only to interpolate the next row. */
 void mps__job_first_rows(mps_job *job);
 /* Record a row at t. */
 void mps__job_sample(mps_job *job, double t);
@@ -278,7 +279,8 @@ const table *mps__job_failed_table(const mps_job *job);
 int32_t mps__job_finish(mps_job *job, mps_status status, double wall_s, double cpu_s);
 /* Largest memory of this process so far [bytes]; NAN: not known. */
 double mps__job_peak_memory(void);
-/* summary.json; before totals.status is set, that of a run that is unfinished. @return false: it could not be written, job->error says why */
+/* summary.json; before totals.status is set, that of an unfinished run. @return false: the file
+ * could not be written, job->error has the reason */
 bool mps__summary_save(mps_job *job);
 /* Write report.html, if it is requested.
  * @return false: it could not be written, job->error is the reason */

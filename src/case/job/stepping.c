@@ -68,7 +68,7 @@ static void add_up(mps_job *job, const mps_step_info *info, const double *row)
 {
     job_totals *s = &job->totals;
     mps__resume_add_step(job, row);
-    s->steps_here++;
+    s->steps_of_run++;
     s->step_s += mps__progress_clock() - job->step_end;
     for (int k = 0; k < MPS_STAGE_COUNT; k++) s->seconds[k] += info->seconds[k];
 }
@@ -141,7 +141,7 @@ static int monitor(void *user, mps_sim *sim, const mps_step_info *info)
     mps_job *job = user;
     (void)sim;
     const double begin = mps__progress_clock();
-    int due = mps__job_told(job, mps__job_first(job) ? take_step(job, info) : 0);
+    int due = mps__job_broadcast(job, mps__job_first(job) ? take_step(job, info) : 0);
     if (job->config.trace) mps__trace_step(job, info->t, info->dt);
     if (due & DUE_SAMPLE) {
         mps__job_sample(job, info->t);
@@ -217,13 +217,13 @@ static void begin(mps_job *job)
     char spacing[SPACING_TEXT];
     describe_spacing(job, spacing);
     if (!c->quiet)
-        mps__job_tell(job,
-                      "%s%sdp %s, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g "
-                      "s",
-                      c->model ? c->model : "", c->model ? ", " : "", spacing, (long long)s->fluid,
-                      (long long)s->wall, (long long)s->dummy, s->t, c->t_end);
+        mps__job_print(job,
+                       "%s%sdp %s, %lld fluid, %lld wall, %lld dummy particles, from t = %g to %g "
+                       "s",
+                       c->model ? c->model : "", c->model ? ", " : "", spacing, (long long)s->fluid,
+                       (long long)s->wall, (long long)s->dummy, s->t, c->t_end);
     mps__progress_begin(&job->progress, c->t_end, mps_particles_count(job->sim, -1),
-                        !c->quiet && !c->say);
+                        !c->quiet && !c->print);
     mps__progress_from(&job->progress, s->t, s->steps);
     mps__job_first_rows(job);
     mps__frames_begin(job);
@@ -276,6 +276,6 @@ int32_t mps_job_run(mps_job *job, mps_sim *sim)
     job->error[0] = '\0';
     mps_sim_shape(sim, &job->dim, &job->dp);
     if (open_job(job)) return step(job);
-    if (job->tells && job->error[0]) mps__job_tell(job, "%s", job->error);
+    if (job->prints && job->error[0]) mps__job_print(job, "%s", job->error);
     return job->code;
 }

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures, inputs, references, phases. */
+/* summary.json: one object for programs, flat but for lists: columns of probes.csv, figures,
+ * inputs, references, phases. */
 #include "escape.h"
 #include "run.h"
 #include <errno.h>
@@ -52,7 +53,8 @@ static void summary_counts(FILE *out, const mps_job *job)
     if (job->config.device) json_text(out, "device", job->config.device);
 }
 
-/* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the program that started it. */
+/* Largest memory of this program [bytes]. That of getrusage() begins with the memory of the
+ * program that started it. */
 double mps__job_peak_memory(void)
 {
     char line[160];
@@ -73,7 +75,7 @@ static void summary_times(FILE *out, const mps_job *job)
     json_number(out, "dt_mean", per_step(s->t, s->steps));
     json_number(out, "wall_s", s->wall_s);
     json_number(out, "cpu_s", s->cpu_s);
-    json_number(out, "s_per_step", per_step(s->step_s, s->steps_here));
+    json_number(out, "s_per_step", per_step(s->step_s, s->steps_of_run));
     json_number(out, "output_s", s->output_s);
     json_number(out, "ppe_iterations_mean", per_step(s->ppe_iterations, s->steps));
     json_number(out, "ppe_solves_mean", per_step(s->ppe_solves, s->steps));
@@ -368,7 +370,7 @@ bool mps__summary_save(mps_job *job)
     bool failed = !out || ferror(out) || fflush(out) != 0 || fsync(fileno(out)) != 0;
     if (out && fclose(out) != 0) failed = true;
     if (!failed && rename(temporary, path) == 0) return true;
-    mps__job_tell(job, "%s: %s", path, strerror(errno));
+    mps__job_print(job, "%s: %s", path, strerror(errno));
     if (out) unlink(temporary);
     return false;
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* trace.csv: the added columns after every step, with no interpolation, and integrals, means, extremes and slopes of them. Impacts last a few
- * steps: rows at fixed times would miss them. */
+/* trace.csv: the added columns after every step, without interpolation, and integrals, means,
+ * extremes and slopes of them. Impacts last a few steps: rows at fixed times would miss them. */
 #include "grow.h"
 #include "run.h"
 #include <math.h>
@@ -26,7 +26,7 @@ static const char *const FLOW[] = {"momentum_x", "momentum_y", "momentum_z",
 
 /* ---- rows ---- */
 
-/* Keep a row; a table_row_fn as well, for the rows of the file that a run goes on with. */
+/* Keep a row; a table_row_fn as well, for the rows of the file of a resumed run. */
 void mps__trace_keep(void *user, const double *row)
 {
     mps_job *job = user;
@@ -184,7 +184,7 @@ mps_status mps_trace_init(mps_trace *trace, size_t size)
 }
 
 /* Describe a figure by its own numbers. */
-static void tell(const mps_trace *m, char *out, size_t size)
+static void describe(const mps_trace *m, char *out, size_t size)
 {
     static const char *const kind[] = {
         [MPS_TRACE_GIVEN] = "",          [MPS_TRACE_INTEGRAL] = "integral over time of",
@@ -238,7 +238,7 @@ mps_status mps_job_trace_add(mps_job *job, const mps_trace *trace)
         return mps__job_refuse(job, MPS_E_NOMEM, "out of memory");
     }
     *f = (trace_figure){.job = job, .column = column, .of = *trace};
-    if (!trace->about) tell(trace, about, sizeof about);
+    if (!trace->about) describe(trace, about, sizeof about);
     const mps_status status = mps_job_figure_add(job, name, trace->about ? trace->about : about, 0,
                                                  measure, f);
     job->trace[job->traces++] = f;

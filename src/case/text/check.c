@@ -13,13 +13,13 @@ static void check_node(mps_case *c, tree_node *node, const mps__key *entry);
 static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
 {
     static const char *const is[] = {"a text", "a list", "a map"};
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     const mps__key *e = node->entry;
     const char *given = is[node->kind];
     if (node->kind == TREE_TEXT && !*node->text) given = "nothing";
     if (node->kind == TREE_LIST && node->count == 0) given = "an empty list";
     if (node->kind == TREE_MAP && node->count == 0) given = "an empty map";
-    mps__case_say(c, node, false, "%s: %s is wanted, not %s%s%s%s",
+    mps__case_log(c, node, false, "%s: %s is wanted, not %s%s%s%s",
                   mps__tree_path(node, path, sizeof path), wanted, given,
                   *e->example ? ", e.g. '" : "", e->example, *e->example ? "'" : "");
 }
@@ -28,17 +28,17 @@ static void refuse_kind(mps_case *c, const tree_node *node, const char *wanted)
 
 static void refuse_key(mps_case *c, const tree_node *node, const mps__key *parent)
 {
-    char path[PATH_ROOM], near[64];
+    char path[PATH_CAPACITY], near[64];
     const char *known = mps__key_nearest(parent, node->key, near, sizeof near);
     const mps__key *other = known ? NULL : mps__key_elsewhere(node->key);
     mps__tree_path(node, path, sizeof path);
     if (known)
-        mps__case_say_key(c, node, "unknown key '%s'; did you mean '%s'?", path, known);
+        mps__case_log_key(c, node, "unknown key '%s'; did you mean '%s'?", path, known);
     else if (other && other->path[0])
-        mps__case_say_key(c, node, "unknown key '%s'; '%s' is a key of '%s'", path, node->key,
+        mps__case_log_key(c, node, "unknown key '%s'; '%s' is a key of '%s'", path, node->key,
                           other->path);
     else
-        mps__case_say_key(c, node, "unknown key '%s'", path);
+        mps__case_log_key(c, node, "unknown key '%s'", path);
 }
 
 /* Check a name that the user chooses. */
@@ -52,7 +52,7 @@ static bool check_name(mps_case *c, const tree_node *node)
            (strchr(letters, node->key[good]) || (good > 0 && strchr(more, node->key[good]))))
         good++;
     if (good == length && length > 0 && length <= NAME_MOST) return true;
-    mps__case_say_key(
+    mps__case_log_key(
         c, node,
         "name '%.60s': a letter a to z, A to Z is wanted, then such letters, digits, _ and -, %d "
         "in all at most",
@@ -75,21 +75,21 @@ static void check_child(mps_case *c, tree_node *child, const mps__key *parent)
 
 static void check_required(mps_case *c, const tree_node *map, const mps__key *entry)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     for (int32_t k = 1; k < mps__keys_count; k++) {
         const mps__key *key = &mps__keys[k];
         if (!key->required || !mps__key_is_below(entry, key)) continue;
         const char *last = mps__key_last(key);
         if (mps__tree_find(map, last)) continue;
         mps__tree_path(map, path, sizeof path);
-        mps__case_say_key(c, map, "%s%skey '%s' is missing, e.g. '%s: %s'", path, *path ? ": " : "",
+        mps__case_log_key(c, map, "%s%skey '%s' is missing, e.g. '%s: %s'", path, *path ? ": " : "",
                           last, last, key->example);
     }
 }
 
 static void check_group(mps_case *c, const tree_node *map, const mps__key_group *g)
 {
-    char path[PATH_ROOM], words[120];
+    char path[PATH_CAPACITY], words[120];
     const tree_node *first = NULL;
     const char *word;
     size_t length;
@@ -97,7 +97,7 @@ static void check_group(mps_case *c, const tree_node *map, const mps__key_group 
     for (const tree_node *n = map->first; n; n = n->next) {
         if (!mps__words_have(g->keys, n->key, strlen(n->key))) continue;
         if (first)
-            mps__case_say_key(c, n, "%s: '%s' and '%s' exclude each other; remove one", path,
+            mps__case_log_key(c, n, "%s: '%s' and '%s' exclude each other; remove one", path,
                               first->key, n->key);
         first = n;
     }
@@ -106,19 +106,19 @@ static void check_group(mps_case *c, const tree_node *map, const mps__key_group 
     for (int32_t i = 0; (length = mps__words_get(g->keys, i, &word)) > 0; i++)
         used += (size_t)snprintf(words + used, sizeof words - used, "%s%.*s", i ? ", " : "",
                                  (int)length, word);
-    mps__case_say_key(c, map, "%s: one of these keys is missing: %s", path, words);
+    mps__case_log_key(c, map, "%s: one of these keys is missing: %s", path, words);
 }
 
 /* Refuse a key that needs another key which is not given. */
 static void check_needs(mps_case *c, const tree_node *map, const mps__key_group *g)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     const size_t length = strcspn(g->keys, "|");
     const char *needed = g->keys + length + 1;
     for (const tree_node *n = map->first; n; n = n->next) {
         if (strlen(n->key) != length || memcmp(n->key, g->keys, length) != 0) continue;
         if (!mps__tree_find(map, needed))
-            mps__case_say_key(c, n, "%s: '%s' is missing beside it, e.g. '%s: %s'",
+            mps__case_log_key(c, n, "%s: '%s' is missing beside it, e.g. '%s: %s'",
                               mps__tree_path(n, path, sizeof path), needed, needed,
                               mps__key_below(map->entry, needed)->example);
     }
@@ -129,7 +129,7 @@ static void check_needs(mps_case *c, const tree_node *map, const mps__key_group 
  * @return the last of these parts, after a message; NULL: the text is not split */
 static tree_node *split_word(mps_case *c, tree_node *node, const mps__key *entry)
 {
-    char word[80], path[PATH_ROOM];
+    char word[80], path[PATH_CAPACITY];
     if (!entry || !entry->words || node->kind != TREE_TEXT) return NULL;
     size_t used = (size_t)snprintf(word, sizeof word, "%.60s", node->text);
     for (tree_node *n = node->next; n && n->kind == TREE_TEXT && !*n->text; n = n->next) {
@@ -137,7 +137,7 @@ static tree_node *split_word(mps_case *c, tree_node *node, const mps__key *entry
         if (used >= sizeof word) return NULL;
         if (!mps__words_have(entry->words, word, used)) continue;
         node->entry = n->entry = entry;
-        mps__case_say(c, node, false, "%s: a text with commas needs quotes in braces, %s: '%s'",
+        mps__case_log(c, node, false, "%s: a text with commas needs quotes in braces, %s: '%s'",
                       mps__tree_path(node, path, sizeof path), node->key, word);
         return n;
     }

@@ -1,11 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Names of columns of probes.csv: a sensor must not have that of another column, and 'collect' must name one. */
+/* Names of columns of probes.csv: the name of a sensor must differ from other columns, and
+ * 'collect' must name columns. */
 #include "tree.h"
 #include "units.h"
 #include <stdio.h>
 #include <string.h>
 
-enum { LISTED_ROOM = 200 };
+enum { LISTED_CAPACITY = 200 };
 
 /* Columns of each run, as columns.c of the job has them; of the motion; of a body. */
 static const char COMMON[] = "t|ke|x_tank|pe|wall_work_momentum|wall_work_probes|viscous|plugins|"
@@ -17,7 +18,7 @@ static void check_sensors(mps_case *c, const tree_node *sensors, bool moves)
     for (const tree_node *n = sensors->first; n; n = n->next) {
         const bool common = mps__words_have(COMMON, n->key, strlen(n->key));
         if (!common && !(moves && mps__words_have(MOTION, n->key, strlen(n->key)))) continue;
-        mps__case_say_key(c, n, "sensors.%s: probes.csv has a column '%s', %s; choose another name",
+        mps__case_log_key(c, n, "sensors.%s: probes.csv has a column '%s', %s; choose another name",
                           n->key, n->key, common ? "which each run writes" : "of the motion");
     }
 }
@@ -51,7 +52,7 @@ static bool is_column(const tree_node *sensors, const char *name, size_t length)
 
 static void check_entry(mps_case *c, const tree_node *sensors, const tree_node *node)
 {
-    char known[LISTED_ROOM] = "";
+    char known[LISTED_CAPACITY] = "";
     size_t used = 0;
     const char *dot = node->kind == TREE_TEXT ? strrchr(node->text, '.') : NULL;
     if (!dot || dot == node->text || strpbrk(node->text, "[], \"")) return; /* told by the sweep */
@@ -60,7 +61,7 @@ static void check_entry(mps_case *c, const tree_node *sensors, const tree_node *
          n = n->next)
         used += (size_t)snprintf(known + used, sizeof known - used, "%s%s", used ? ", " : "",
                                  n->key);
-    mps__case_say(c, node, false, "collect: no sensor is '%.*s'%s%s", (int)(dot - node->text),
+    mps__case_log(c, node, false, "collect: no sensor is '%.*s'%s%s", (int)(dot - node->text),
                   node->text, used ? "; there are " : "", known);
 }
 

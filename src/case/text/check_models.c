@@ -12,25 +12,25 @@
 /* A function of libmps that lists names. */
 typedef mps_status (*list_fn)(const mps_sim *sim, int32_t index, mps_name_info *info);
 
-enum { NAME_ROOM = 64, LISTED_ROOM = 160 };
+enum { NAME_CAPACITY = 64, LISTED_CAPACITY = 160 };
 
 /* The nearest of the names that `list` has, into `nearest`, and all of them into `all`;
  * @return whether the name itself is there */
 static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *nearest, char *all)
 {
     mps_name_info info;
-    int32_t distance, best = 2 * NAME_ROOM;
+    int32_t distance, best = 2 * NAME_CAPACITY;
     size_t used = 0;
     nearest[0] = all[0] = '\0';
     mps_name_info_init(&info, sizeof info);
     for (int32_t k = 0; list(sim, k, &info) == MPS_OK; k++) {
         if (strcmp(info.name, name) == 0) return true;
-        if (used < LISTED_ROOM)
-            used += (size_t)snprintf(all + used, LISTED_ROOM - used, "%s%s", k ? ", " : "",
+        if (used < LISTED_CAPACITY)
+            used += (size_t)snprintf(all + used, LISTED_CAPACITY - used, "%s%s", k ? ", " : "",
                                      info.name);
         if (!mps__words_near(name, info.name, &distance) || distance >= best) continue;
         best = distance;
-        snprintf(nearest, NAME_ROOM, "%s", info.name);
+        snprintf(nearest, NAME_CAPACITY, "%s", info.name);
     }
     return false;
 }
@@ -39,8 +39,8 @@ static bool find_name(const mps_sim *sim, list_fn list, const char *name, char *
 static void refuse_name(mps_case *c, const tree_node *node, const char *what, const char *nearest,
                         const char *others)
 {
-    char path[PATH_ROOM];
-    mps__case_say(c, node, false, "%s: no %s '%.60s'; %s%s%s",
+    char path[PATH_CAPACITY];
+    mps__case_log(c, node, false, "%s: no %s '%.60s'; %s%s%s",
                   mps__tree_path(node, path, sizeof path), what, node->text,
                   *nearest ? "did you mean '" : "", *nearest ? nearest : others,
                   *nearest ? "'?" : "");
@@ -49,7 +49,7 @@ static void refuse_name(mps_case *c, const tree_node *node, const char *what, co
 static void check_name(mps_case *c, const mps_sim *sim, const tree_node *node, const char *what,
                        list_fn list)
 {
-    char nearest[NAME_ROOM], all[LISTED_ROOM], others[LISTED_ROOM + 16];
+    char nearest[NAME_CAPACITY], all[LISTED_CAPACITY], others[LISTED_CAPACITY + 16];
     if (!node || node->kind != TREE_TEXT || !*node->text) return;
     if (find_name(sim, list, node->text, nearest, all)) return;
     snprintf(others, sizeof others, "there are %s", all);
@@ -62,11 +62,11 @@ static void check_name(mps_case *c, const mps_sim *sim, const tree_node *node, c
 static bool find_model(const mps_sim *sim, const char *name, bool slot, char *nearest)
 {
     mps_model_info info;
-    int32_t distance, best = 2 * NAME_ROOM;
+    int32_t distance, best = 2 * NAME_CAPACITY;
     nearest[0] = '\0';
     mps_model_info_init(&info, sizeof info);
     for (int32_t k = 0; mps_model_info_get(sim, k, &info) == MPS_OK; k++) {
-        char known[NAME_ROOM];
+        char known[NAME_CAPACITY];
         const size_t length = slot && !strchr(name, '.') ? strcspn(info.name, ".")
                                                          : strlen(info.name);
         snprintf(known, sizeof known, "%.*s", (int)length, info.name);
@@ -80,7 +80,7 @@ static bool find_model(const mps_sim *sim, const char *name, bool slot, char *ne
 
 static void check_model(mps_case *c, const mps_sim *sim, const tree_node *node, bool slot)
 {
-    char nearest[NAME_ROOM];
+    char nearest[NAME_CAPACITY];
     if (node->kind != TREE_TEXT || !*node->text) return;
     if (!find_model(sim, node->text, slot, nearest))
         refuse_name(c, node, slot ? "slot or model" : "model", nearest,
@@ -101,13 +101,13 @@ static void check_model_list(mps_case *c, const mps_sim *sim, const tree_node *l
 typedef struct search {
     const char *name;
     int32_t best;
-    char nearest[NAME_ROOM];
+    char nearest[NAME_CAPACITY];
 } search;
 
 /* Whether slot.key is the setting that is searched for. */
 static bool is_setting(search *s, const char *slot, size_t length, const char *key)
 {
-    char known[NAME_ROOM];
+    char known[NAME_CAPACITY];
     int32_t distance;
     snprintf(known, sizeof known, "%.*s.%s", (int)length, slot, key);
     if (strcmp(known, s->name) == 0) return true;
@@ -158,13 +158,13 @@ static bool take_unit(mps_case *c, tree_node *node, const char *unit)
     if (length > tail && strcmp(node->text + length - tail, unit) == 0)
         node->number = mps__case_copy(c, node->text, length - tail);
     double value;
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     mps__numbers n = {.text = node->number ? node->number : node->text,
                       .kinds = node->units,
                       .most = 1,
                       .out = &value};
     if (mps__numbers_read(&n)) return true;
-    mps__case_say(c, node, false, "%s: '%.60s': a number in '%s' is wanted, e.g. '1 %s'",
+    mps__case_log(c, node, false, "%s: '%.60s': a number in '%s' is wanted, e.g. '1 %s'",
                   mps__tree_path(node, path, sizeof path), node->text, unit, unit);
     return false;
 }
@@ -180,11 +180,11 @@ static void take_flag(tree_node *node)
 static void check_setting(mps_case *c, const mps_sim *sim, tree_node *node)
 {
     mps_setting_info info;
-    search s = {.name = node->key, .best = 2 * NAME_ROOM};
-    char path[PATH_ROOM];
+    search s = {.name = node->key, .best = 2 * NAME_CAPACITY};
+    char path[PATH_CAPACITY];
     double value;
     if (!find_setting(c, sim, &s, &info)) {
-        mps__case_say_key(c, node, "no setting '%.60s'%s%s%s", node->key,
+        mps__case_log_key(c, node, "no setting '%.60s'%s%s%s", node->key,
                           *s.nearest ? "; did you mean '"
                                      : "; settings are slot.key, as 'mps list settings' lists them",
                           s.nearest, *s.nearest ? "'?" : "");
@@ -196,7 +196,7 @@ static void check_setting(mps_case *c, const mps_sim *sim, tree_node *node)
     if (value >= info.min && value <= info.max &&
         (info.type == MPS_TYPE_REAL || value == floor(value)))
         return;
-    mps__case_say(c, node, false, "%s: '%.60s' is out of its range: %s%g .. %g %s",
+    mps__case_log(c, node, false, "%s: '%.60s' is out of its range: %s%g .. %g %s",
                   mps__tree_path(node, path, sizeof path), node->text,
                   info.type == MPS_TYPE_REAL ? "" : "whole numbers, ", info.min, info.max,
                   strcmp(info.unit, "-") == 0 ? "" : info.unit);
@@ -226,10 +226,10 @@ bool mps__node_setting(mps_case *c, const tree_node *node, double *value)
 static void check_drive(mps_case *c, const tree_node *node, int32_t kind)
 {
     const char *what = kind == MPS_PLUGIN_LOAD ? "load" : "motion";
-    char nearest[NAME_ROOM], path[PATH_ROOM];
+    char nearest[NAME_CAPACITY], path[PATH_CAPACITY];
     if (!node || node->kind != TREE_TEXT || !*node->text) return;
     if (mps__plugins_drive(c, node->text, kind, nearest, sizeof nearest)) return;
-    mps__case_say(c, node, false, "%s: no plug-in has a %s '%.60s'%s%s%s",
+    mps__case_log(c, node, false, "%s: no plug-in has a %s '%.60s'%s%s%s",
                   mps__tree_path(node, path, sizeof path), what, node->text,
                   *nearest     ? "; did you mean '"
                   : c->plugins ? ""
@@ -261,7 +261,7 @@ static void warn_of_unused(mps_case *c, const tree_node *const used[USERS])
         for (int32_t i = 0; mps_plugin_item_get(c->plugin[k].file, i, &item) == MPS_OK; i++)
             for (int n = 0; n < USERS; n++) any = any || has_text(used[n], item.name);
         if (any || mps_plugin_item_get(c->plugin[k].file, 0, &item) != MPS_OK) continue;
-        mps__case_say(c, c->plugin[k].at, true,
+        mps__case_log(c, c->plugin[k].at, true,
                       "plugins: nothing of this plug-in is used; e.g. '%s%s%s' uses it",
                       key[item.kind], item.name, end[item.kind]);
     }

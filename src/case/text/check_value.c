@@ -11,14 +11,14 @@
 
 static void refuse(mps_case *c, const tree_node *node, const char *wanted)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     const mps__key *e = node->entry;
     mps__tree_path(node, path, sizeof path);
     if (node->kind == TREE_TEXT && node->text && *node->text)
-        mps__case_say(c, node, false, "%s: '%.80s': %s is wanted, e.g. '%s'", path, node->text,
+        mps__case_log(c, node, false, "%s: '%.80s': %s is wanted, e.g. '%s'", path, node->text,
                       wanted, e->example);
     else
-        mps__case_say(c, node, false, "%s: %s is wanted, not %s, e.g. '%s'", path, wanted,
+        mps__case_log(c, node, false, "%s: %s is wanted, not %s, e.g. '%s'", path, wanted,
                       node->kind == TREE_TEXT   ? "nothing"
                       : node->kind == TREE_LIST ? "a list"
                                                 : "a map",
@@ -55,9 +55,9 @@ static void expect_count(const mps__key *e, int32_t *few, int32_t *many)
 
 static bool right_count(mps_case *c, const tree_node *node, const mps__numbers *n, int32_t few)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     if (n->count >= few) return true;
-    mps__case_say(c, node, false, "%s: %d number%s, %d are wanted, e.g. '%s'",
+    mps__case_log(c, node, false, "%s: %d number%s, %d are wanted, e.g. '%s'",
                   mps__tree_path(node, path, sizeof path), (int)n->count, n->count == 1 ? "" : "s",
                   (int)few, node->entry->example);
     return false;
@@ -67,20 +67,20 @@ static bool right_count(mps_case *c, const tree_node *node, const mps__numbers *
 static bool in_range(mps_case *c, const tree_node *node, const mps__numbers *n)
 {
     const mps__key *e = node->entry;
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     for (int32_t k = 0; k < n->count; k++) {
         if (e->whole && n->out[k] != floor(n->out[k])) {
-            mps__case_say(c, node, false, "%s: '%s': a whole number is wanted",
+            mps__case_log(c, node, false, "%s: '%s': a whole number is wanted",
                           mps__tree_path(node, path, sizeof path), node->text);
             return false;
         }
         if (isnan(n->out[k]) || mps__range_holds(e->range, n->out[k], n->relative)) continue;
         if (strcmp(e->path, "mps") == 0) /* the range of `mps` lists versions */
-            mps__case_say(c, node, false,
+            mps__case_log(c, node, false,
                           "mps: version %.20s is out of its range: this program reads version %s",
                           n->text, e->example);
         else
-            mps__case_say(c, node, false, "%s: '%.80s' is out of its range: %s",
+            mps__case_log(c, node, false, "%s: '%.80s' is out of its range: %s",
                           mps__tree_path(node, path, sizeof path), n->text, e->range);
         return false;
     }
@@ -90,7 +90,7 @@ static bool in_range(mps_case *c, const tree_node *node, const mps__numbers *n)
 int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, double *out,
                           uint64_t *found)
 {
-    char path[PATH_ROOM], kind[120];
+    char path[PATH_CAPACITY], kind[120];
     const char *text = joined(c, node);
     if (!text) {
         if (c->no_memory) return -1;
@@ -108,13 +108,13 @@ int32_t mps__node_numbers(mps_case *c, const tree_node *node, int32_t most, doub
     expect_count(node->entry, &few, &many);
     if (n.most > many) n.most = many;
     if (!mps__numbers_read(&n)) {
-        mps__case_say(c, node, false, "%s: %s", mps__tree_path(node, path, sizeof path), n.why);
+        mps__case_log(c, node, false, "%s: %s", mps__tree_path(node, path, sizeof path), n.why);
         return -1;
     }
     if (found) *found = n.found;
     if (!right_count(c, node, &n, few) || !in_range(c, node, &n)) return -1;
     if (n.missing && strcmp(node->entry->path, "dp") == 0) {
-        mps__case_say(c, node, false,
+        mps__case_log(c, node, false,
                       "dp: 'dp' is not known here; a length is wanted, e.g. '4 mm'");
         return -1;
     }
@@ -137,7 +137,7 @@ static void check_numbers(mps_case *c, tree_node *node)
 static void check_points(mps_case *c, tree_node *node)
 {
     const mps__key *e = node->entry;
-    char path[PATH_ROOM], counts[40];
+    char path[PATH_CAPACITY], counts[40];
     double point[3];
     if (node->kind != TREE_LIST) {
         refuse(c, node, "a list of points");
@@ -146,7 +146,7 @@ static void check_points(mps_case *c, tree_node *node)
     snprintf(counts, sizeof counts, e->few == e->many ? "%d" : "%d to %d", (int)e->few,
              (int)e->many);
     if (node->count < e->few || node->count > e->many)
-        mps__case_say(c, node, false, "%s: %d points, %s are wanted, e.g. '%s'",
+        mps__case_log(c, node, false, "%s: %d points, %s are wanted, e.g. '%s'",
                       mps__tree_path(node, path, sizeof path), (int)node->count, counts,
                       e->example);
     for (tree_node *n = node->first; n; n = n->next) {
@@ -171,7 +171,7 @@ static void check_texts(mps_case *c, tree_node *node)
 /* Refuse a word and propose the nearest allowed one. */
 static void refuse_word(mps_case *c, const tree_node *node)
 {
-    char path[PATH_ROOM], known[80], nearest[80] = "";
+    char path[PATH_CAPACITY], known[80], nearest[80] = "";
     const char *word;
     size_t length;
     int32_t distance, best = 100;
@@ -183,10 +183,10 @@ static void refuse_word(mps_case *c, const tree_node *node)
     }
     mps__tree_path(node, path, sizeof path);
     if (nearest[0])
-        mps__case_say(c, node, false, "%s: '%.80s' is not known; did you mean '%s'?", path,
+        mps__case_log(c, node, false, "%s: '%.80s' is not known; did you mean '%s'?", path,
                       node->text, nearest);
     else
-        mps__case_say(c, node, false, "%s: '%.80s' is not known; one of these is wanted: %s", path,
+        mps__case_log(c, node, false, "%s: '%.80s' is not known; one of these is wanted: %s", path,
                       node->text, node->entry->words);
 }
 
@@ -207,7 +207,7 @@ static void check_flag(mps_case *c, tree_node *node)
 
 static void check_unit(mps_case *c, tree_node *node)
 {
-    char path[PATH_ROOM], list[160];
+    char path[PATH_CAPACITY], list[160];
     const mps__unit *u = node->kind == TREE_TEXT ? mps__unit_find(node->text, strlen(node->text))
                                                  : NULL;
     if (u && (u->kinds & node->units) && u->scale == SCALE_NONE) return;
@@ -216,20 +216,20 @@ static void check_unit(mps_case *c, tree_node *node)
         return;
     }
     mps__kinds_units(node->units, list, sizeof list);
-    mps__case_say(c, node, false, "%s: '%.80s' is no unit here; units: %s",
+    mps__case_log(c, node, false, "%s: '%.80s' is no unit here; units: %s",
                   mps__tree_path(node, path, sizeof path), node->text, list);
 }
 
 static void check_file(mps_case *c, const tree_node *node)
 {
-    char path[PATH_ROOM];
+    char path[PATH_CAPACITY];
     if (node->kind != TREE_TEXT || !*node->text) {
         refuse(c, node, "the name of a file");
         return;
     }
     const char *file = mps__file_path(c, node);
     if (file && access(file, R_OK) != 0)
-        mps__case_say(c, node, false, "%s: '%s' cannot be read: %s",
+        mps__case_log(c, node, false, "%s: '%s' cannot be read: %s",
                       mps__tree_path(node, path, sizeof path), node->text, strerror(errno));
 }
 

@@ -96,7 +96,7 @@ bool mps__key_dotted(const mps__key *key)
     return key->shape == SHAPE_PATHS || strcmp(key->path, "settings") == 0;
 }
 
-enum { WORD_ROOM = 40 };
+enum { WORD_CAPACITY = 40 };
 
 bool mps__words_near(const char *a, const char *b, int32_t *distance)
 {
@@ -104,15 +104,15 @@ bool mps__words_near(const char *a, const char *b, int32_t *distance)
     const size_t la = strlen(a), lb = strlen(b);
     while (a[same] && a[same] == b[same]) same++;
     const size_t edits = mps__word_distance(a, b);
-    *distance = edits < WORD_ROOM ? (int32_t)edits : WORD_ROOM;
+    *distance = edits < WORD_CAPACITY ? (int32_t)edits : WORD_CAPACITY;
     if (*distance <= 2 && (size_t)*distance < (la > lb ? la : lb)) return true;
-    *distance += WORD_ROOM; /* a common prefix ranks after a small distance */
+    *distance += WORD_CAPACITY; /* a common prefix ranks after a small distance */
     return same >= 3 && (same == la || same == lb);
 }
 
 const char *mps__key_nearest(const mps__key *parent, const char *name, char *buffer, size_t size)
 {
-    int32_t best = 2 * WORD_ROOM + 1, distance;
+    int32_t best = 2 * WORD_CAPACITY + 1, distance;
     bool found = false;
     for (int32_t k = 1; k < mps__keys_count; k++) {
         const char *word;
@@ -120,7 +120,7 @@ const char *mps__key_nearest(const mps__key *parent, const char *name, char *buf
         if (!mps__key_is_below(parent, &mps__keys[k])) continue;
         for (int32_t i = 0; (length = mps__words_get(mps__key_last(&mps__keys[k]), i, &word)) > 0;
              i++) {
-            char known[WORD_ROOM];
+            char known[WORD_CAPACITY];
             if (length >= sizeof known || *word == '*') continue;
             memcpy(known, word, length);
             known[length] = '\0';

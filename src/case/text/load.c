@@ -60,7 +60,7 @@ static void refuse_file(mps_case *c, const char *path, const tree_node *from, co
 {
     c->no_file = true;
     if (from) {
-        mps__case_say(c, from, false, "'%s' cannot be read: %s", path, why);
+        mps__case_log(c, from, false, "'%s' cannot be read: %s", path, why);
         return;
     }
     const char *name = mps__case_copy(c, path, strlen(path));
@@ -120,17 +120,17 @@ static bool is_open(const chain *files, const char *path)
 static tree_node *load_base(mps_case *c, const tree_node *base, const chain *files)
 {
     if (base->kind != TREE_TEXT || !*base->text) {
-        mps__case_say(c, base, false, "base: the name of a file is wanted, e.g. 'lng.yaml'");
+        mps__case_log(c, base, false, "base: the name of a file is wanted, e.g. 'lng.yaml'");
         return NULL;
     }
     const char *path = mps__file_path(c, base);
     if (!path) return NULL;
     if (is_open(files, path)) {
-        mps__case_say(c, base, false, "base: '%s' is a base of itself", base->text);
+        mps__case_log(c, base, false, "base: '%s' is a base of itself", base->text);
         return NULL;
     }
     if (files->length == BASES) {
-        mps__case_say(c, base, false, "base: more than %d files", BASES);
+        mps__case_log(c, base, false, "base: more than %d files", BASES);
         return NULL;
     }
     return load(c, path, base, files);
@@ -143,7 +143,7 @@ static void apply_set(mps_case *c, tree_node *root)
     if (!set) return;
     mps__tree_remove(root, set);
     if (set->kind != TREE_MAP) {
-        mps__case_say(c, set, false, "set: a map of paths and values is wanted, {dp: 10 mm}");
+        mps__case_log(c, set, false, "set: a map of paths and values is wanted, {dp: 10 mm}");
         return;
     }
     for (tree_node *n = set->first, *next; n; n = next) {
@@ -161,7 +161,7 @@ static tree_node *load_source(mps_case *c, int32_t source, const char *path, con
     tree_node *root = mps__parse(c, source);
     if (!root) return NULL;
     if (root->kind != TREE_MAP) {
-        mps__case_say(c, root, false, "a map of keys is wanted; a case begins with 'mps: 1'");
+        mps__case_log(c, root, false, "a map of keys is wanted; a case begins with 'mps: 1'");
         return NULL;
     }
     tree_node *base = mps__tree_find(root, "base");

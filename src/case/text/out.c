@@ -14,9 +14,9 @@ mps__out mps__out_begin(char *buffer, size_t size)
 void mps__out_put(mps__out *o, const char *format, ...)
 {
     va_list list;
-    const size_t room = o->length < o->size ? o->size - o->length : 0;
+    const size_t remaining = o->length < o->size ? o->size - o->length : 0;
     va_start(list, format);
-    const int more = vsnprintf(room ? o->buffer + o->length : NULL, room, format, list);
+    const int more = vsnprintf(remaining ? o->buffer + o->length : NULL, remaining, format, list);
     va_end(list);
     if (more > 0) o->length += (size_t)more;
 }

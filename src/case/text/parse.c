@@ -128,13 +128,13 @@ static void place_value(parse *p, tree_node *value)
         value->key_column = p->key_place.column;
         p->key = NULL;
         if (before) {
-            mps__case_say_key(p->c, value, "key '%s' is given twice; first in line %d", value->key,
+            mps__case_log_key(p->c, value, "key '%s' is given twice; first in line %d", value->key,
                               (int)before->key_line);
             value->parent = p->at; /* its elements are still to be read */
             return;
         }
         if (p->at->count == TREE_KEYS) {
-            mps__case_say_key(p->c, value, "more than %d keys in a map", TREE_KEYS);
+            mps__case_log_key(p->c, value, "more than %d keys in a map", TREE_KEYS);
             p->stop = true;
         }
     }

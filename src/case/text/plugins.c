@@ -111,9 +111,9 @@ static void refuse_missing(mps_case *c, const tree_node *file)
 {
     const char *path = getenv(search_path);
     if (file->text[0] == '/')
-        mps__case_say(c, file, false, "plugins: there is no file '%.200s'", file->text);
+        mps__case_log(c, file, false, "plugins: there is no file '%.200s'", file->text);
     else
-        mps__case_say(c, file, false, "plugins: there is no file '%.200s' in '%.200s'%s%.100s%s",
+        mps__case_log(c, file, false, "plugins: there is no file '%.200s' in '%.200s'%s%.100s%s",
                       file->text, c->source[file->source].folder,
                       strchr(file->text, '/') ? ""
                       : path && *path         ? ", nor in MPS_PLUGIN_PATH, '"
@@ -129,7 +129,7 @@ static bool is_allowed(mps_case *c, const tree_node *file)
 {
     const mps__source *s = &c->source[file->source];
     if (c->load == MPS_CASE_PLUGINS_ALL || !s->untrusted) return true;
-    mps__case_say(c, file, false,
+    mps__case_log(c, file, false,
                   "plugins: '%.200s' is a program that would run with your rights, and a page or a "
                   "text of others names it; if you trust it, --allow-plugins loads it, or give "
                   "your own copy by --plugin FILE",
@@ -141,7 +141,7 @@ static void check_sum(mps_case *c, tree_node *item, const mps_plugin_file *p)
 {
     tree_node *sum = mps__tree_find(item, "sha256"), *file = mps__tree_find(item, "file");
     if (sum && strcasecmp(sum->text, p->sha256) != 0)
-        mps__case_say(
+        mps__case_log(
             c, sum, false,
             "plugins: '%.200s' is not the file that is wanted: its SHA-256 is %s; without "
             "'sha256' the case takes any",
@@ -171,14 +171,14 @@ static void load_item(mps_case *c, tree_node *item)
         return;
     }
     if (c->plugins == CASE_PLUGINS) {
-        mps__case_say(c, file, false, "plugins: more than %d", CASE_PLUGINS);
+        mps__case_log(c, file, false, "plugins: more than %d", CASE_PLUGINS);
         return;
     }
     const mps_status status = mps_plugin_open(path, &p, why, sizeof why);
     if (status == MPS_E_NOMEM)
         c->no_memory = true;
     else if (status != MPS_OK)
-        mps__case_say(c, file, false, "plugins: '%.200s': %s", path, why);
+        mps__case_log(c, file, false, "plugins: '%.200s': %s", path, why);
     if (status != MPS_OK) return;
     c->plugin[c->plugins++] = (mps__case_plugin){p, file};
     file->text = p->path;
@@ -233,12 +233,12 @@ bool mps__plugins_register(mps_case *c, mps_sim *sim)
         if (!owner && mps_plugin_register(p->file, sim, why, sizeof why) == MPS_OK) continue;
         good = false;
         if (owner)
-            mps__case_say(c, p->at, false,
+            mps__case_log(c, p->at, false,
                           "plugins: '%.200s': the name '%s' is taken by '%.200s'; remove one of "
                           "the plug-ins",
                           p->file->path, name, owner->path);
         else
-            mps__case_say(c, p->at, false, "plugins: '%.200s': %s", p->file->path, why);
+            mps__case_log(c, p->at, false, "plugins: '%.200s': %s", p->file->path, why);
     }
     return good;
 }

@@ -21,8 +21,8 @@ static tree_node *find(const tree_node *map, const char *key)
  * dp and the height of the tank are always known by then. */
 static void refuse_unknown(mps_case *c, const tree_node *node)
 {
-    char path[PATH_ROOM];
-    mps__case_say(c, node, false, "%s: 'T1' is not known here; write a time in s",
+    char path[PATH_CAPACITY];
+    mps__case_log(c, node, false, "%s: 'T1' is not known here; write a time in s",
                   mps__tree_path(node, path, sizeof path));
 }
 

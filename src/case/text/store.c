@@ -13,7 +13,7 @@ struct mps__block_of_case {
     size_t size, used;
 };
 
-enum { BLOCK = 1 << 14, ALIGNMENT = 16, MESSAGE_ROOM = 700, SOURCE_ROOM = 200 };
+enum { BLOCK = 1 << 14, ALIGNMENT = 16, MESSAGE_CAPACITY = 700, SOURCE_CAPACITY = 200 };
 
 static const size_t HEAD = (sizeof(mps__block_of_case) + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
 
@@ -22,13 +22,13 @@ void *mps__case_take(mps_case *c, size_t size)
     size = (size + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT;
     mps__block_of_case *b = c->blocks;
     if (!b || b->size - b->used < size) {
-        const size_t room = size > BLOCK - HEAD ? size : BLOCK - HEAD;
-        b = calloc(1, HEAD + room);
+        const size_t capacity = size > BLOCK - HEAD ? size : BLOCK - HEAD;
+        b = calloc(1, HEAD + capacity);
         if (!b) {
             c->no_memory = true;
             return NULL;
         }
-        *b = (mps__block_of_case){.before = c->blocks, .size = room};
+        *b = (mps__block_of_case){.before = c->blocks, .size = capacity};
         c->blocks = b;
     }
     char *at = (char *)b + HEAD + b->used;
@@ -72,7 +72,7 @@ bool mps__case_failed(const mps_case *c)
     return c->no_memory || c->errors > c->known_errors;
 }
 
-void mps__case_go_on(mps_case *c, bool others)
+void mps__case_continue(mps_case *c, bool others)
 {
     c->known_errors = others ? c->errors : 0;
 }
@@ -99,7 +99,7 @@ static int32_t compare(mps__place a, int32_t source, const mps_case_message *m)
 }
 
 /* Insert an empty message in the order of positions. @return its index, or -1 */
-static int32_t make_room(mps_case *c, mps__place at)
+static int32_t reserve_more(mps_case *c, mps__place at)
 {
     int32_t k = c->messages;
     while (k > 0 && compare(at, c->message_source[k - 1], &c->message[k - 1]) < 0) k--;
@@ -112,11 +112,11 @@ static int32_t make_room(mps_case *c, mps__place at)
     return k;
 }
 
-void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *format, va_list list)
+void mps__case_log_at(mps_case *c, mps__place at, bool warning, const char *format, va_list list)
 {
     static const mps__source none = {.name = "", .text = "", .option = true};
     const mps__source *s = at.source < c->sources ? &c->source[at.source] : &none;
-    char text[MESSAGE_ROOM];
+    char text[MESSAGE_CAPACITY];
     vsnprintf(text, sizeof text, format, list);
     if (!warning) c->errors++;
     if (s->option) at.line = at.column = 0;
@@ -126,7 +126,7 @@ void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *form
             return;
     const char *kept = mps__case_copy(c, text, strlen(text));
     const char *line = source_line(c, s, at.line);
-    const int32_t k = kept ? make_room(c, at) : -1;
+    const int32_t k = kept ? reserve_more(c, at) : -1;
     if (k < 0) return;
     c->message_source[k] = at.source;
     c->message[k] = (mps_case_message){.struct_size = sizeof(mps_case_message),
@@ -138,22 +138,22 @@ void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *form
                                        .source = line};
 }
 
-void mps__case_say(mps_case *c, const tree_node *at, bool warning, const char *format, ...)
+void mps__case_log(mps_case *c, const tree_node *at, bool warning, const char *format, ...)
 {
     const mps__place place = {at->source, at->line, at->column};
     va_list list;
     va_start(list, format);
-    mps__case_say_at(c, place, warning, format, list);
+    mps__case_log_at(c, place, warning, format, list);
     va_end(list);
 }
 
-void mps__case_say_key(mps_case *c, const tree_node *at, const char *format, ...)
+void mps__case_log_key(mps_case *c, const tree_node *at, const char *format, ...)
 {
     const mps__place place = {at->source, at->key ? at->key_line : at->line,
                               at->key ? at->key_column : at->column};
     va_list list;
     va_start(list, format);
-    mps__case_say_at(c, place, false, format, list);
+    mps__case_log_at(c, place, false, format, list);
     va_end(list);
 }
 
@@ -161,7 +161,7 @@ void mps__case_fail(mps_case *c, mps__place at, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
-    mps__case_say_at(c, at, false, format, list);
+    mps__case_log_at(c, at, false, format, list);
     va_end(list);
 }
 
@@ -195,9 +195,9 @@ static size_t characters(const char *text, int32_t count)
 /* Write the line, or the part of a long line around the column, with a caret below it. */
 static void put_source(mps__out *o, const mps_case_message *m)
 {
-    const int32_t first = m->column > SOURCE_ROOM / 2 ? m->column - SOURCE_ROOM / 2 : 0;
+    const int32_t first = m->column > SOURCE_CAPACITY / 2 ? m->column - SOURCE_CAPACITY / 2 : 0;
     const char *from = m->source + characters(m->source, first);
-    const int length = (int)characters(from, SOURCE_ROOM);
+    const int length = (int)characters(from, SOURCE_CAPACITY);
     mps__out_put(o, "%5d | %.*s\n", (int)m->line, length, from);
     if (m->column < 1) return;
     mps__out_put(o, "      | ");

@@ -6,7 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { VALUE_ROOM = 200, PATH_VALUES = 1000, SWEEP_RUNS = 100000 };
+enum { VALUE_CAPACITY = 200, PATH_VALUES = 1000, SWEEP_RUNS = 100000 };
 
 /* "a to b step c", in the unit of c. */
 typedef struct steps {
@@ -27,7 +27,7 @@ static bool without_words(const char *text, char *numbers, size_t size)
 /* Read the numbers a, b, c as written: all have the unit at the end. */
 static bool read_steps(const char *text, steps *s)
 {
-    char numbers[VALUE_ROOM], number[VALUE_ROOM];
+    char numbers[VALUE_CAPACITY], number[VALUE_CAPACITY];
     double value[3];
     if (!without_words(text, numbers, sizeof numbers)) return false;
     mps__numbers all = {.text = numbers, .kinds = UNIT_ANY, .most = 3, .out = value};
@@ -78,7 +78,7 @@ static bool is_numbers(const mps__key *key)
 
 static int32_t count_values(const tree_node *node)
 {
-    char value[VALUE_ROOM];
+    char value[VALUE_CAPACITY];
     const bool numbers = is_numbers(mps__key_at(node->key));
     int32_t count = 0;
     if (node->kind == TREE_MAP) return 0;
@@ -97,7 +97,7 @@ static bool reads_as_numbers(mps_case *c, const tree_node *node, const mps__key 
                         .out = value,
                         .like = key->example};
     if (mps__numbers_read(&all)) return true;
-    mps__case_say(c, node, false, "sweep: %s: %s", node->key, all.why);
+    mps__case_log(c, node, false, "sweep: %s: %s", node->key, all.why);
     return false;
 }
 
@@ -111,7 +111,7 @@ static bool is_plugin(const char *path)
 /* Check each value as if it were at its path. */
 static void check_values(mps_case *c, const tree_node *node, const mps__key *key, int32_t count)
 {
-    char value[VALUE_ROOM];
+    char value[VALUE_CAPACITY];
     for (int32_t k = 0; k < count && !c->no_memory; k++) {
         tree_node *one = mps__tree_new(c, TREE_TEXT,
                                        (mps__place){node->source, node->line, node->column});
@@ -137,7 +137,7 @@ static void refuse_path(mps_case *c, const tree_node *n)
                             ? NULL
                             : mps__key_nearest(&mps__keys[0], n->key, near, sizeof near);
     if (known && strcmp(known, n->key) == 0) known = NULL; /* a map */
-    mps__case_say_key(c, n, "sweep: '%.80s' is no path of a value%s%s%s", n->key,
+    mps__case_log_key(c, n, "sweep: '%.80s' is no path of a value%s%s%s", n->key,
                       known ? "; did you mean '" : ", as 'motion.roll.period'", known ? known : "",
                       known ? "'?" : "");
 }
@@ -151,13 +151,13 @@ void mps__check_sweep(mps_case *c, tree_node *root)
         const mps__key *key = mps__key_at(n->key);
         const int32_t count = count_values(n);
         if (is_plugin(n->key))
-            mps__case_say_key(c, n,
+            mps__case_log_key(c, n,
                               "sweep: plug-ins cannot be varied; their settings can, e.g. "
                               "'settings.screen.darcy'");
         else if (!can_sweep(key))
             refuse_path(c, n);
         else if (count == 0 || count > PATH_VALUES)
-            mps__case_say(
+            mps__case_log(
                 c, n, false,
                 "sweep: 1 to %d values are wanted, e.g. '0.8 0.9 T1' or '1 to 2 step 0.1 s'",
                 PATH_VALUES);
@@ -166,7 +166,7 @@ void mps__check_sweep(mps_case *c, tree_node *root)
         runs *= count;
     }
     if (runs > SWEEP_RUNS)
-        mps__case_say_key(c, sweep, "sweep: %.0f runs, %d at most", runs, SWEEP_RUNS);
+        mps__case_log_key(c, sweep, "sweep: %.0f runs, %d at most", runs, SWEEP_RUNS);
 }
 
 /* ---- calls ----------------------------------------------------------------------------------- */
@@ -199,7 +199,7 @@ int32_t mps_case_sweep_count(const mps_case *c)
 mps_status mps_case_sweep_get(const mps_case *c, int64_t index, int32_t which, char *buffer,
                               size_t size)
 {
-    char value[VALUE_ROOM];
+    char value[VALUE_CAPACITY];
     const tree_node *sweep = sweep_of(c), *n = sweep ? sweep->first : NULL;
     if (!n || !buffer || index < 0 || which < 0 || index >= mps_case_runs(c)) return MPS_E_ARG;
     for (int32_t k = 0; n && k < which; k++) n = n->next;

@@ -86,15 +86,15 @@ typedef struct mps__place {
 } mps__place;
 
 /* Add a message at a node; printf-like. */
-void mps__case_say(mps_case *c, const tree_node *at, bool warning, const char *format, ...);
+void mps__case_log(mps_case *c, const tree_node *at, bool warning, const char *format, ...);
 /* Add an error at the key of a node. */
-void mps__case_say_key(mps_case *c, const tree_node *at, const char *format, ...);
-void mps__case_say_at(mps_case *c, mps__place at, bool warning, const char *format, va_list list);
+void mps__case_log_key(mps_case *c, const tree_node *at, const char *format, ...);
+void mps__case_log_at(mps_case *c, mps__place at, bool warning, const char *format, va_list list);
 /* Add an error at a position. */
 void mps__case_fail(mps_case *c, mps__place at, const char *format, ...);
 /* Switch on to read a further part of a case that already has errors: mps__case_failed() then
  * reports errors of this part alone. Switched off, it reports all errors. */
-void mps__case_go_on(mps_case *c, bool others);
+void mps__case_continue(mps_case *c, bool others);
 /* Whether there are errors, or memory is exhausted. */
 bool mps__case_failed(const mps_case *c);
 
@@ -111,7 +111,7 @@ void mps__tree_replace(tree_node *child, tree_node *with);
 const char *mps__tree_path(const tree_node *node, char *buffer, size_t size);
 
 /* Buffer size of a path in messages. */
-enum { PATH_ROOM = 200 };
+enum { PATH_CAPACITY = 200 };
 
 /* ---- from file to tree */
 /* Add a source. @return its number, or -1. The text is not copied. */

@@ -116,7 +116,7 @@ mps_status mps_body_set(mps_sim *sim, const mps_body *body)
     MPS__TRY(check_body(w, &own));
     own.struct_size = sizeof own;
     if (w->setup.dim == 2) own.centre_of_mass[2] = w->motion.centre[2];
-    MPS__TRY(mps__ranks_tell(&w->ranks, mps__world_add_guess(w)));
+    MPS__TRY(mps__ranks_report(&w->ranks, mps__world_add_guess(w)));
     const mps__body before = w->body;
     mps__motion next = w->motion;
     w->body.given = own;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public functions of checkpoints. */
 #include "checkpoint.h"
-#include "gather.h"
+#include "collect.h"
 #include <mps/output.h>
 #include <string.h>
 
@@ -47,9 +47,9 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
     mps__ranks *r = &sim->world.ranks;
     MPS__TRY(mps__world_fetch(&sim->world));
     MPS__TRY(mps__world_fetch_searched(&sim->world));
-    MPS__TRY(mps__ranks_tell(r, mps__gather_all(&sim->world)));
+    MPS__TRY(mps__ranks_report(r, mps__collect_all(&sim->world)));
     const mps_status status = r->rank == 0 ? save_all(sim, path) : MPS_OK;
-    mps__gather_end(&sim->world);
+    mps__collect_end(&sim->world);
     return mps__ranks_agree(r, status);
 }
 
@@ -101,5 +101,5 @@ mps_status mps_checkpoint_read(mps_sim *sim, const char *path)
     if (status == MPS_OK) status = mps__state_get(sim, &a);
     mps__archive_free(&a);
     /* if one rank is out of memory, the others already have the state of the file */
-    return status == MPS_E_NOMEM ? mps__ranks_tell(r, status) : status;
+    return status == MPS_E_NOMEM ? mps__ranks_report(r, status) : status;
 }

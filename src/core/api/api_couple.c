@@ -23,7 +23,7 @@ mps_status mps_load_watch(mps_sim *sim, int32_t what)
     if (open)
         return mps__fail(w->context, MPS_E_BUSY,
                          "%d lease(s) are open; end them before mps_load_watch()", open);
-    if (what == MPS_LOAD_MASS) MPS__TRY(mps__ranks_tell(&w->ranks, mps__world_add_guess(w)));
+    if (what == MPS_LOAD_MASS) MPS__TRY(mps__ranks_report(&w->ranks, mps__world_add_guess(w)));
     w->load.watch = what;
     if (what == MPS_LOAD_NONE) w->load.known = false;
     return MPS_OK;

@@ -28,11 +28,12 @@ mps_status mps_sim_device_set(mps_sim *sim, const mps_device_ops *ops)
     MPS__TRY(all_alike(sim, ops != NULL));
     /* a new search does not need the last one */
     if (mps__world_fetch_lists(w) < 0) w->lists.neighbours.valid = false;
-    mps__solvers_leave(&w->solvers, &w->host.twins.device);
-    mps__ppe_leave(&w->ppe, &w->host.twins.device);
-    mps__ghosts_leave(&w->ghosts);
-    const mps_status status = mps__ranks_agree(&w->ranks, mps__twins_attach(&w->host.twins, ops));
-    if (status < 0 && mps__ranks_many(&w->ranks)) mps__twins_attach(&w->host.twins, NULL);
+    mps__solvers_release_device(&w->solvers, &w->runner.memory.device);
+    mps__ppe_release_device(&w->ppe, &w->runner.memory.device);
+    mps__ghosts_release_device(&w->ghosts);
+    const mps_status status = mps__ranks_agree(&w->ranks,
+                                               mps__memory_attach(&w->runner.memory, ops));
+    if (status < 0 && mps__ranks_many(&w->ranks)) mps__memory_attach(&w->runner.memory, NULL);
     return status;
 }
 
@@ -46,5 +47,5 @@ mps_status mps_sim_device_info(const mps_sim *sim, mps_device_info *info)
 {
     MPS__READS(sim);
     return mps__struct_out(mps__sim_context(sim), "mps_device_info", info,
-                           &sim->world.host.twins.last, sizeof *info);
+                           &sim->world.runner.memory.last, sizeof *info);
 }

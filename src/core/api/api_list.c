@@ -118,7 +118,7 @@ mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_channel_i
 }
 
 /* "name:rw? name:n" */
-static void tell_uses(const mps__call *call, char out[MPS__USES_SIZE])
+static void fill_uses(const mps__call *call, char out[MPS__USES_SIZE])
 {
     size_t used = 0;
     out[0] = 0;
@@ -149,11 +149,11 @@ static const mps__call *find_verb(const mps__plan *p, int32_t index)
 mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info)
 {
     if (!sim) return MPS_E_ARG;
-    mps__plan *p = &sim->world.host.plan;
+    mps__plan *p = &sim->world.runner.plan;
     if (mps__plan_make(p, &sim->world.models) < 0) return MPS_E_STATE;
     const mps__call *call = find_verb(p, index);
     if (!call) return MPS_E_ARG;
-    tell_uses(call, sim->uses);
+    fill_uses(call, sim->uses);
     const mps_verb_info found = {.struct_size = sizeof found,
                                  .hook = call->hook,
                                  .hook_name = mps__hook_name(call->hook),
@@ -169,12 +169,12 @@ mps_status mps_pass_info_get(mps_sim *sim, int32_t index, mps_pass_info *info)
     const mps__call *call;
     int part;
     if (!sim) return MPS_E_ARG;
-    mps__plan *p = &sim->world.host.plan;
+    mps__plan *p = &sim->world.runner.plan;
     if (mps__plan_make(p, &sim->world.models) < 0) return MPS_E_STATE;
     if (!mps__plan_entry(p, index, &call, &part)) return MPS_E_ARG;
     const mps__cost *cost = call ? &call->cost : &p->outside[part];
     sim->uses[0] = 0;
-    if (call) tell_uses(call, sim->uses);
+    if (call) fill_uses(call, sim->uses);
     const mps_pass_info found = {.struct_size = sizeof found,
                                  .hook = call ? call->hook : -1,
                                  .hook_name = call ? mps__hook_name(call->hook) : "step",
@@ -190,7 +190,7 @@ mps_status mps_pass_info_get(mps_sim *sim, int32_t index, mps_pass_info *info)
 mps_status mps_profile_reset(mps_sim *sim)
 {
     MPS__READS(sim);
-    mps__plan *p = &sim->world.host.plan;
+    mps__plan *p = &sim->world.runner.plan;
     MPS__TRY(mps__plan_make(p, &sim->world.models));
     mps__plan_clear_costs(p);
     return MPS_OK;
@@ -198,7 +198,7 @@ mps_status mps_profile_reset(mps_sim *sim)
 
 /* ---- names ---- */
 
-static mps_status tell_name(const mps_sim *sim, mps_name_info *info, const char *name,
+static mps_status fill_name(const mps_sim *sim, mps_name_info *info, const char *name,
                             const char *help, bool in_use)
 {
     const mps_name_info found = {
@@ -210,21 +210,21 @@ mps_status mps_preset_info_get(const mps_sim *sim, int32_t index, mps_name_info 
 {
     const char *name, *help;
     if (!sim || !mps__models_preset_info(index, &name, &help)) return MPS_E_ARG;
-    return tell_name(sim, info, name, help, false);
+    return fill_name(sim, info, name, help, false);
 }
 
 mps_status mps_solver_info_get(const mps_sim *sim, int32_t index, mps_name_info *info)
 {
     if (!sim || index < 0 || index >= sim->world.solvers.solvers) return MPS_E_ARG;
     const mps_solver_ops *ops = &sim->world.solvers.solver[index];
-    return tell_name(sim, info, ops->name, ops->help, sim->world.solvers.use == ops);
+    return fill_name(sim, info, ops->name, ops->help, sim->world.solvers.use == ops);
 }
 
 mps_status mps_preconditioner_info_get(const mps_sim *sim, int32_t index, mps_name_info *info)
 {
     if (!sim || index < 0 || index >= sim->world.solvers.preconditioners) return MPS_E_ARG;
     const mps_preconditioner_ops *ops = &sim->world.solvers.preconditioner[index];
-    return tell_name(sim, info, ops->name, ops->help, sim->world.solvers.pc == ops);
+    return fill_name(sim, info, ops->name, ops->help, sim->world.solvers.pc == ops);
 }
 
 mps_status mps_kernel_info_get(const mps_sim *sim, int32_t index, mps_name_info *info)
@@ -233,6 +233,6 @@ mps_status mps_kernel_info_get(const mps_sim *sim, int32_t index, mps_name_info 
     static const char *const help[] = {"re/(0.85 r + 0.15 re) - 1, W22 (3): finite at r = 0",
                                        "re/r - 1, Z14 (3)"};
     if (!sim || index < 0 || index > 1) return MPS_E_ARG;
-    return tell_name(sim, info, name[index], help[index],
+    return fill_name(sim, info, name[index], help[index],
                      sim->world.setup.kernel.id == MPS_KERNEL_IMPROVED + index);
 }

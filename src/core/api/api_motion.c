@@ -88,7 +88,7 @@ mps_status mps__sim_motion_install(mps_sim *sim, mps__motion *next)
         return status;
     }
     /* the limits predicted by the last step used velocities relative to the tank */
-    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->ahead.flow = -1;
+    if (!same(old.now.state.rate, next->now.state.rate, MPS_DOF_COUNT)) w->next_flags.flow = -1;
     if (old.user != next->user) mps__motion_free(&old);
     /* the next pose of a tank that is moved by poses is no start */
     if (!goes_on) w->state.start_pending = next->fn && next->start == MPS_START_WITH_TANK;
@@ -105,7 +105,7 @@ static mps_status install_built_in(mps_sim *sim, mps_motion_fn fn, void *data,
     next.release = release_block;
     next.t_end = t_end;
     next.longest = longest;
-    next.told = false;
+    next.logged = false;
     next.posed = NULL;
     return mps__sim_motion_install(sim, &next);
 }
@@ -293,7 +293,7 @@ mps_status mps_motion_pose_set(mps_sim *sim, double t_end, const mps_motion_stat
     next.release = NULL; /* the present motion stays if this one is refused */
     next.t_end = t_end;
     next.longest = NULL;
-    next.told = false;
+    next.logged = false;
     /* an error in a callback of the library must not mention a plug-in */
     if (mps__motion_pose(&next, t_end, &last) < 0) return MPS_E_ARG;
     MPS__TRY(mps__world_check_pose(w, &next, &last, MPS_E_ARG));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public functions of particles: add, remove, fields, leases. */
 #define _POSIX_C_SOURCE 200809L
-#include "gather.h"
+#include "collect.h"
 #include "plates.h"
 #include "sim.h"
 #include "world_ranks.h"
@@ -131,7 +131,7 @@ static void store_block(mps_sim *sim, const mps_particle_block *b, int32_t part,
 
 /* An open tank may be filled from above, so fluid outside of the walls is accepted with a
  * warning. */
-static void tell_outside(mps_sim *sim, const mps_particle_block *b)
+static void log_outside(mps_sim *sim, const mps_particle_block *b)
 {
     mps__world *w = &sim->world;
     const int dim = w->setup.dim;
@@ -180,7 +180,7 @@ static mps_status add_block(mps_sim *sim, const mps_particle_block *block, int64
     }
     const int64_t first = mps__particles_append(s, b.count, b.kind);
     store_block(sim, &b, part, first);
-    tell_outside(sim, &b);
+    log_outside(sim, &b);
     sim->world.lists.neighbours.valid = false;
     for (int64_t k = 0; ids && k < b.count; k++) ids[k] = s->id[first + k];
     return mps__world_divided(&sim->world) ? mps__world_adopt(&sim->world) : MPS_OK;
@@ -191,7 +191,7 @@ static mps_status same_everywhere(mps_sim *sim, mps_status status)
 {
     mps__ranks *r = &sim->world.ranks;
     return status == MPS_OK        ? mps__ranks_status(r)
-           : status == MPS_E_NOMEM ? mps__ranks_tell(r, status)
+           : status == MPS_E_NOMEM ? mps__ranks_report(r, status)
                                    : status;
 }
 

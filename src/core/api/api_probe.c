@@ -32,7 +32,7 @@ mps_status mps_probe_add(mps_sim *sim, const mps_probe *probe, int32_t *id)
     MPS__TRY(mps__struct_in(&sim->context, "mps_probe", &p, sizeof p, probe));
     const mps_status status = mps__probes_add(&sim->world, &sim->probes, &p, id);
     /* broadcast out of memory only: other errors occur on all ranks and need not end the run */
-    return status == MPS_E_NOMEM ? mps__ranks_tell(&sim->world.ranks, status) : status;
+    return status == MPS_E_NOMEM ? mps__ranks_report(&sim->world.ranks, status) : status;
 }
 
 mps_status mps_probe_remove(mps_sim *sim, int32_t id)
@@ -85,7 +85,7 @@ mps_status mps_probe_read(mps_sim *sim, int32_t id, double *values)
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a kernel");
     const mps_status status = mps__probe_read(&sim->world, probe, values);
     sim->context.lock = before;
-    return mps__ranks_tell(&sim->world.ranks, status);
+    return mps__ranks_report(&sim->world.ranks, status);
 }
 
 /* A probe that records samples; NULL: none, with the reason in the status. */
@@ -110,7 +110,7 @@ mps_status mps_probe_series(mps_sim *sim, int32_t id, int64_t *count, const doub
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a kernel");
     status = mps__probe_take(&sim->world, probe);
     sim->context.lock = before;
-    MPS__TRY(mps__ranks_tell(&sim->world.ranks, status));
+    MPS__TRY(mps__ranks_report(&sim->world.ranks, status));
     if (count) *count = probe->series.count;
     if (t) *t = probe->series.t;
     if (values) *values = probe->series.value;
@@ -137,7 +137,7 @@ mps_status mps_energy_get(mps_sim *sim, mps_energy *energy)
 {
     MPS__MEASURES(sim);
     mps_energy now;
-    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__energy_measure(&sim->world, &now)));
+    MPS__TRY(mps__ranks_report(&sim->world.ranks, mps__energy_measure(&sim->world, &now)));
     return mps__struct_out(&sim->context, "mps_energy", energy, &now, sizeof now);
 }
 

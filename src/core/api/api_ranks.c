@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Public functions of ranks. */
-#include "gather.h"
+#include "collect.h"
 #include "sim.h"
 
 mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops)
@@ -10,11 +10,11 @@ mps_status mps_sim_ranks_set(mps_sim *sim, const mps_ranks_ops *ops)
     if (w->ranks.ops.name)
         return mps__fail(&sim->context, MPS_E_STATE, "the handle has engine of ranks '%s' already",
                          w->ranks.ops.name);
-    if (w->host.twins.device.ops.name)
+    if (w->runner.memory.device.ops.name)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the handle runs on device '%s': call mps_sim_ranks_set() before "
                          "mps_sim_device_set()",
-                         w->host.twins.device.ops.name);
+                         w->runner.memory.device.ops.name);
     if (w->particles.n > 0 || w->state.step > 0 || sim->solids > 0 || sim->probes.count > 0)
         return mps__fail(&sim->context, MPS_E_STATE,
                          "the handle has particles, solids, probes or steps already: call "
@@ -45,25 +45,25 @@ static mps_status no_leases(mps_sim *sim)
                 : MPS_OK;
 }
 
-mps_status mps_particles_gather(mps_sim *sim)
+mps_status mps_particles_collect(mps_sim *sim)
 {
     MPS__READS(sim);
     mps__world *w = &sim->world;
     MPS__TRY(no_leases(sim));
-    if (w->gathered.begun)
-        return mps__fail(&sim->context, MPS_E_STATE, "the particles are gathered already");
-    MPS__TRY(mps__ranks_tell(&w->ranks, mps__gather_all(w)));
-    w->gathered.begun = true;
+    if (w->collected.begun)
+        return mps__fail(&sim->context, MPS_E_STATE, "the particles are collected already");
+    MPS__TRY(mps__ranks_report(&w->ranks, mps__collect_all(w)));
+    w->collected.begun = true;
     return MPS_OK;
 }
 
-mps_status mps_particles_gather_end(mps_sim *sim)
+mps_status mps_particles_collect_end(mps_sim *sim)
 {
     MPS__READS(sim);
     MPS__TRY(no_leases(sim));
-    if (!sim->world.gathered.begun)
+    if (!sim->world.collected.begun)
         return mps__fail(&sim->context, MPS_E_STATE,
-                         "the particles are not gathered: call mps_particles_gather() first");
-    mps__gather_end(&sim->world);
+                         "the particles are not collected: call mps_particles_collect() first");
+    mps__collect_end(&sim->world);
     return MPS_OK;
 }

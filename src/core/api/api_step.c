@@ -73,9 +73,9 @@ mps_status mps_step(mps_sim *sim, double dt_max, mps_step_info *info)
     if (info) MPS__TRY(mps__struct_in(&sim->context, "mps_step_info", &probe, sizeof probe, info));
     MPS__TRY(ready(sim));
     /* allocate before the step: an out-of-memory error leaves no step incomplete */
-    MPS__TRY(mps__ranks_tell(&sim->world.ranks, mps__probes_take(&sim->world, &sim->probes)));
+    MPS__TRY(mps__ranks_report(&sim->world.ranks, mps__probes_take(&sim->world, &sim->probes)));
     const mps__lock before = mps__lock_set(&sim->context, MPS__LOCKED, "a callback in a step");
-    mps_status status = mps__ranks_tell(&sim->world.ranks, mps__world_step(&sim->world, dt_max));
+    mps_status status = mps__ranks_report(&sim->world.ranks, mps__world_step(&sim->world, dt_max));
     sim->context.lock = before;
     if (status >= 0 && info)
         MPS__TRY(mps__struct_out(&sim->context, "mps_step_info", info, &sim->world.info,

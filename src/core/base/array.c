@@ -31,8 +31,8 @@ void mps__array_invalidate(mps__array *a, int32_t space)
 {
     a->version_in[space] = -1;
     if (a->bytes > 0)
-        mps__device_outdate(a->device, space == MPS__ON_HOST ? a->host : a->mirror.data, a->bytes,
-                            a->number);
+        mps__device_invalidate(a->device, space == MPS__ON_HOST ? a->host : a->mirror.data,
+                               a->bytes, a->number);
 }
 
 void mps__array_written(mps__array *a, int32_t space)
@@ -48,8 +48,8 @@ void mps__array_written(mps__array *a, int32_t space)
 void mps__array_release(mps__array *a)
 {
     if (a->device) {
-        mps__device_leave(a->device, &a->spare);
-        mps__device_leave(a->device, &a->mirror);
+        mps__device_release(a->device, &a->spare);
+        mps__device_release(a->device, &a->mirror);
     }
     a->bytes = 0;
     a->device = NULL;
@@ -61,7 +61,7 @@ mps_status mps__array_fit(mps__array *a, mps__device *d, size_t bytes, size_t nu
 {
     if (bytes > a->mirror.bytes) {
         mps__array_release(a);
-        a->mirror.data = mps__device_room(d, bytes);
+        a->mirror.data = mps__device_alloc(d, bytes);
         if (!a->mirror.data) return MPS_E_NOMEM;
         a->mirror.bytes = bytes;
     }
@@ -93,8 +93,8 @@ mps_status mps__array_keep(mps__array *a, mps__context *c, const mps_parallel *p
         return mps__device_status(a->device);
     }
     if (size > a->kept_capacity)
-        MPS__TRY(
-            mps__grow(c, &a->kept, &a->kept_capacity, 0, mps__room(size, a->kept_capacity), 1));
+        MPS__TRY(mps__grow(c, &a->kept, &a->kept_capacity, 0,
+                           mps__capacity_for(size, a->kept_capacity), 1));
     mps__parallel_copy(p, a->kept, a->host, bytes);
     return MPS_OK;
 }

@@ -8,7 +8,7 @@
 #include "parallel.h"
 
 /* Memory spaces. */
-enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__PLACES, MPS__NOWHERE = -1 };
+enum { MPS__ON_HOST, MPS__ON_DEVICE, MPS__SPACES, MPS__NOWHERE = -1 };
 
 typedef struct mps__array {
     void *host;
@@ -18,7 +18,7 @@ typedef struct mps__array {
     size_t bytes;                    /* of the values; 0: the mirror is not in use */
     size_t number;                   /* bytes of a number */
     int64_t version;                 /* of the newest values */
-    int64_t version_in[MPS__PLACES]; /* version in each memory space */
+    int64_t version_in[MPS__SPACES]; /* version in each memory space */
     int64_t ghosts;                  /* version in which ghosts have the values of their owners */
     int32_t kept_in;       /* memory space of a copy for mps__array_restore(), or MPS__NOWHERE */
     void *kept;            /* memory of such a copy on the host */

@@ -46,7 +46,7 @@ mps_status mps__grow(mps__context *c, void **block, int64_t *capacity, int64_t u
 
 /* Capacity to allocate when an array of `capacity` must hold n elements: exactly n the first time,
  * with a reserve later. */
-static inline int64_t mps__room(int64_t n, int64_t capacity)
+static inline int64_t mps__capacity_for(int64_t n, int64_t capacity)
 {
     return capacity > 0 ? n + n / 8 : n;
 }

@@ -15,11 +15,11 @@ static mps_status check_table(mps__context *c, const mps_device_ops *ops)
     MPS__CHECK(c, ops->api == MPS_DEVICE_API, "mps_device_ops.api is %u: this version knows %u",
                ops->api, MPS_DEVICE_API);
     MPS__CHECK(c, ops->name && ops->name[0], "mps_device_ops.name is NULL or empty");
-    const bool complete = ops->room && ops->give && ops->upload && ops->download && ops->clear &&
-                          ops->copy && ops->rows && ops->values && ops->gather && ops->wait &&
-                          ops->failure;
+    const bool complete = ops->alloc && ops->free && ops->upload && ops->download && ops->clear &&
+                          ops->copy && ops->launch && ops->reduce && ops->reduce_async &&
+                          ops->wait && ops->failure;
     MPS__CHECK(c, complete,
-               "device '%s' lacks a function: all but 'outdated', 'begin' and 'end' are needed",
+               "device '%s' lacks a function: all but 'invalidated', 'begin' and 'end' are needed",
                ops->name);
     return MPS_OK;
 }
@@ -60,7 +60,7 @@ void mps__device_begin(mps__device *d)
     d->info = (mps_device_info){
         .struct_size = sizeof d->info, .name = d->ops.name, .bytes_held = held};
     d->failed = false;
-    d->unless = NULL;
+    d->cancel = NULL;
 }
 
 mps__device *mps__device_of(const mps_parallel *p)
@@ -79,7 +79,7 @@ static void note(mps__device *d, int failed)
     snprintf(d->why, sizeof d->why, "%s", why ? why : "it does not say why");
 }
 
-void mps__device_give_up(mps__device *d)
+void mps__device_fail(mps__device *d)
 {
     if (!d->failed) snprintf(d->why, sizeof d->why, "%.300s", d->context->error);
     d->failed = true;
@@ -93,59 +93,59 @@ mps_status mps__device_status(const mps__device *d)
 
 /* ---- memory ---- */
 
-void *mps__device_room(mps__device *d, size_t bytes)
+void *mps__device_alloc(mps__device *d, size_t bytes)
 {
-    void *room = d->ops.room(d->ops.self, bytes);
-    if (room)
+    void *block = d->ops.alloc(d->ops.self, bytes);
+    if (block)
         d->info.bytes_held += (int64_t)bytes;
     else
-        mps__fail(d->context, MPS_E_NOMEM, "device '%s' has no room for %zu bytes", d->ops.name,
+        mps__fail(d->context, MPS_E_NOMEM, "device '%s' has no memory for %zu bytes", d->ops.name,
                   bytes);
-    return room;
+    return block;
 }
 
-void mps__device_give(mps__device *d, void *room, size_t bytes)
+void mps__device_free(mps__device *d, void *block, size_t bytes)
 {
-    if (!room) return;
-    d->ops.give(d->ops.self, room);
+    if (!block) return;
+    d->ops.free(d->ops.self, block);
     d->info.bytes_held -= (int64_t)bytes;
 }
 
-void *mps__device_fit(mps__device *d, mps__device_block *room, size_t bytes)
+void *mps__device_fit(mps__device *d, mps__device_block *block, size_t bytes)
 {
-    if (room->data && bytes <= room->bytes) return room->data;
-    mps__device_leave(d, room);
+    if (block->data && bytes <= block->bytes) return block->data;
+    mps__device_release(d, block);
     const size_t wanted = bytes + bytes / 8 + sizeof(double);
-    room->data = mps__device_room(d, wanted);
-    if (room->data) room->bytes = wanted;
-    return room->data;
+    block->data = mps__device_alloc(d, wanted);
+    if (block->data) block->bytes = wanted;
+    return block->data;
 }
 
-void mps__device_leave(mps__device *d, mps__device_block *room)
+void mps__device_release(mps__device *d, mps__device_block *block)
 {
-    mps__device_give(d, room->data, room->bytes);
-    *room = (mps__device_block){NULL, 0};
+    mps__device_free(d, block->data, block->bytes);
+    *block = (mps__device_block){NULL, 0};
 }
 
 static void *alloc_block(void *user, size_t bytes)
 {
     mps__device *d = user;
     int k = 0;
-    while (k < MPS__DEVICE_BLOCKS && d->block[k].room) k++;
-    void *room = k < MPS__DEVICE_BLOCKS && bytes > 0 ? mps__device_room(d, bytes) : NULL;
-    if (!room) return NULL;
-    d->block[k].room = room;
+    while (k < MPS__DEVICE_BLOCKS && d->block[k].data) k++;
+    void *block = k < MPS__DEVICE_BLOCKS && bytes > 0 ? mps__device_alloc(d, bytes) : NULL;
+    if (!block) return NULL;
+    d->block[k].data = block;
     d->block[k].bytes = bytes;
-    return room;
+    return block;
 }
 
-static void release_block(void *user, void *room)
+static void release_block(void *user, void *block)
 {
     mps__device *d = user;
     for (int k = 0; k < MPS__DEVICE_BLOCKS; k++) {
-        if (d->block[k].room != room) continue;
-        mps__device_give(d, room, d->block[k].bytes);
-        d->block[k].room = NULL;
+        if (d->block[k].data != block) continue;
+        mps__device_free(d, block, d->block[k].bytes);
+        d->block[k].data = NULL;
         return;
     }
 }
@@ -188,14 +188,15 @@ void mps__device_copy(mps__device *d, void *to, const void *from, size_t bytes)
 
 void mps__device_wait(mps__device *d)
 {
-    if (d->failed || !mps__device_there(d)) return;
+    if (d->failed || !mps__device_present(d)) return;
     note(d, d->ops.wait(d->ops.self));
     d->info.waits++;
 }
 
-void mps__device_outdate(mps__device *d, void *array, size_t bytes, size_t number)
+void mps__device_invalidate(mps__device *d, void *array, size_t bytes, size_t number)
 {
-    if (d->ops.outdated && bytes > 0) d->ops.outdated(d->ops.self, array, bytes, (uint32_t)number);
+    if (d->ops.invalidated && bytes > 0)
+        d->ops.invalidated(d->ops.self, array, bytes, (uint32_t)number);
 }
 
 /* ---- loops ---- */
@@ -212,7 +213,7 @@ static void complete(mps__device *d, mps_launch *launch)
 {
     launch->struct_size = sizeof *launch;
     launch->file = name_of(launch->file);
-    launch->unless = d->unless;
+    launch->cancel = d->cancel;
     d->info.launches++;
 }
 
@@ -221,10 +222,10 @@ void mps__device_launch(mps__device *d, mps_launch *launch, mps_exact *sums, dou
     if (d->failed || launch->n == 0) return;
     complete(d, launch);
     if (launch->sums == 0 && launch->maxima == 0) {
-        note(d, d->ops.rows(d->ops.self, launch));
+        note(d, d->ops.launch(d->ops.self, launch));
         return;
     }
-    note(d, d->ops.values(d->ops.self, launch, sums, maxima));
+    note(d, d->ops.reduce(d->ops.self, launch, sums, maxima));
     d->info.waits++;
     d->info.bytes_down += (int64_t)((size_t)launch->sums * sizeof *sums +
                                     (size_t)launch->maxima * sizeof *maxima);
@@ -240,10 +241,10 @@ static void put_nothing(mps__device *d, const mps_launch *launch, void *to)
     mps__device_upload(d, (char *)to + sums, lowest, (size_t)launch->maxima * sizeof *lowest);
 }
 
-void mps__device_gather(mps__device *d, mps_launch *launch, void *to)
+void mps__device_reduce_async(mps__device *d, mps_launch *launch, void *to)
 {
     if (launch->n == 0) put_nothing(d, launch, to);
     if (d->failed || launch->n == 0) return;
     complete(d, launch);
-    note(d, d->ops.gather(d->ops.self, launch, to));
+    note(d, d->ops.reduce_async(d->ops.self, launch, to));
 }

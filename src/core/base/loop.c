@@ -109,12 +109,12 @@ void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t d
         mps_exact_rows(p, n, MPS_PARALLEL_LEAST, run_values, &k, &wanted);
 }
 
-void mps__values_gather(mps__device *d, const mps__values *values, int32_t dim, int64_t n,
-                        const void *fields, void *to)
+void mps__values_reduce_async(mps__device *d, const mps__values *values, int32_t dim, int64_t n,
+                              const void *fields, void *to)
 {
     const job k = {.values = values, .dim = dim, .fields = fields};
     mps_launch l = launch_of(&k, n);
-    mps__device_gather(d, &l, to);
+    mps__device_reduce_async(d, &l, to);
 }
 
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,

@@ -52,8 +52,8 @@ void mps__values_run(const mps_parallel *p, const mps__values *values, int32_t d
                      const void *fields, mps_exact *sum, double *maximum);
 /* Reduce asynchronously on a device: sums, then maxima, of these rows only are written to device
  * memory. */
-void mps__values_gather(struct mps__device *d, const mps__values *values, int32_t dim, int64_t n,
-                        const void *fields, void *to);
+void mps__values_reduce_async(struct mps__device *d, const mps__values *values, int32_t dim,
+                              int64_t n, const void *fields, void *to);
 /* First row of 0..n-1 that satisfies the test of MPS__FIRST(), n if none does. */
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
                        const void *fields);

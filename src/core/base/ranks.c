@@ -59,7 +59,7 @@ mps_status mps__ranks_status(mps__ranks *r)
                      text ? text : "the messages between ranks failed");
 }
 
-mps_status mps__ranks_tell(mps__ranks *r, mps_status status)
+mps_status mps__ranks_report(mps__ranks *r, mps_status status)
 {
     char text[MPS__ERROR_SIZE];
     if (!mps__ranks_many(r) || status >= 0 || r->failed) return status;

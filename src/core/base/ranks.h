@@ -36,7 +36,7 @@ static inline bool mps__ranks_many(const mps__ranks *r)
 mps_status mps__ranks_status(mps__ranks *r);
 /* Broadcast a status of this rank alone: if it is a failure, all other ranks fail too. Returns
  * it. */
-mps_status mps__ranks_tell(mps__ranks *r, mps_status status);
+mps_status mps__ranks_report(mps__ranks *r, mps_status status);
 
 /* Broadcast the error text of a failure that all ranks know, from a rank that has the text. The
  * others must have an empty text. Returns the status. */

@@ -33,11 +33,11 @@ static int64_t blocks_of(int64_t n)
     return (n + MPS__SCAN_BLOCK - 1) / MPS__SCAN_BLOCK;
 }
 
-int64_t mps__scan_room(int64_t n)
+int64_t mps__scan_size(int64_t n)
 {
-    int64_t room = n;
-    for (; n > MPS__SCAN_BLOCK; n = blocks_of(n)) room += blocks_of(n);
-    return room;
+    int64_t size = n;
+    for (; n > MPS__SCAN_BLOCK; n = blocks_of(n)) size += blocks_of(n);
+    return size;
 }
 
 void mps__scan(const mps_parallel *p, int64_t *values, int64_t n)

@@ -23,7 +23,7 @@ struct mps_sim {
     bool lattice_of_solids;
     double lattice_lo[3], lattice_h[3]; /* first point, spacing along each axis [m] */
     int64_t lattice_cells[3];
-    int64_t slots_told; /* particles.solids at the last log message about narrow slots */
+    int64_t slots_logged; /* particles.solids at the last log message about narrow slots */
     /* positions of the solids */
     int32_t solids;
     int64_t solid_capacity;
@@ -52,10 +52,10 @@ static inline mps_status mps__sim_free(const mps_sim *sim, int32_t allowed, cons
 /* Refuse a call that would change particles while they are collected from all ranks. */
 static inline mps_status mps__sim_divided(const mps_sim *sim, const char *call)
 {
-    if (!sim->world.gathered.begun) return MPS_OK;
+    if (!sim->world.collected.begun) return MPS_OK;
     return mps__fail(mps__sim_context(sim), MPS_E_STATE,
-                     "%s() was called while the particles are gathered: call "
-                     "mps_particles_gather_end() first",
+                     "%s() was called while the particles are collected: call "
+                     "mps_particles_collect_end() first",
                      call);
 }
 

@@ -190,9 +190,9 @@ static bool part_at(const mps__archive *a, int64_t at, part *p)
 {
     if (a->size - at < (int64_t)sizeof *p) return false;
     memcpy(p, a->data + at, sizeof *p);
-    const int64_t room = a->size - at - (int64_t)sizeof *p;
-    return p->count >= 0 && p->bytes > 0 && p->count <= room / p->bytes && padded(p) <= room &&
-           memchr(p->name, 0, sizeof p->name);
+    const int64_t remaining = a->size - at - (int64_t)sizeof *p;
+    return p->count >= 0 && p->bytes > 0 && p->count <= remaining / p->bytes &&
+           padded(p) <= remaining && memchr(p->name, 0, sizeof p->name);
 }
 
 /* The padding is checked too: only a file exactly as written is accepted. */
@@ -218,7 +218,7 @@ static mps_status check_parts(const mps__archive *a, const char *path)
     }
     if (at != a->size)
         return mps__fail(a->context, MPS_E_IO,
-                         "checkpoint \"%.300s\" is damaged: it goes on behind its end", path);
+                         "checkpoint \"%.300s\" is damaged: it continues behind its end", path);
     return MPS_OK;
 }
 

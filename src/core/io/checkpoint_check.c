@@ -327,7 +327,7 @@ mps_status mps__check_particles(mps__context *c, const mps__arrived *a)
     MPS__TRY(check_tags(c, a, "region", MPS_REGION_INNER, MPS_REGION_DRY));
     MPS__TRY(check_held(c, a));
     MPS__TRY(check_tags(c, a, "wall_of", -1, a->n - 1));
-    MPS__TRY(check_tags(c, a, "plate", 0, w->lists.screens.count));
+    MPS__TRY(check_tags(c, a, "plate", 0, w->lists.occluders.count));
     if (a->linked < 0 || a->linked > 1 || a->listed < 0 || a->listed > a->linked)
         DAMAGED("\"lists\" are %d, %d; must be 0 or 1, the second only with the first",
                 (int)a->linked, (int)a->listed);

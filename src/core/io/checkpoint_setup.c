@@ -102,8 +102,8 @@ static void put_solids(const mps_sim *sim, mps__text *t)
     line(t, "checksum of their %s %llu", moved ? "parts" : "places",
          (unsigned long long)solids.checksum);
     line(t, "layers of dummies %d", (int)sim->world.setup.layers);
-    for (int32_t k = 0; k < sim->world.lists.screens.count; k++) {
-        const mps__screen *p = &sim->world.lists.screens.list[k];
+    for (int32_t k = 0; k < sim->world.lists.occluders.count; k++) {
+        const mps__occluder *p = &sim->world.lists.occluders.list[k];
         vector(t, "plate at", p->corner);
         vector(t, "plate facing", p->normal);
         line(t, "plate of %.17g x %.17g", p->length[0], p->length[1]);

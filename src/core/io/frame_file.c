@@ -3,7 +3,7 @@
  * pieces (.pvtp). */
 #include "frame_file.h"
 #include "escape.h"
-#include "gather.h"
+#include "collect.h"
 #include <string.h>
 
 enum { CHUNK = 512, COLUMNS = MPS__FIELDS_MAX + 4 };

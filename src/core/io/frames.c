@@ -286,7 +286,7 @@ mps_status mps__frames_open(mps__world *w, const char *folder, const char *name,
                "frames: kinds is %d, must be a sum of MPS_FRAMES_..., 0..%d", (int)kinds, (int)all);
     const bool pieces = (kinds & MPS_FRAMES_PIECES) != 0 && mps__ranks_many(&w->ranks);
     mps_frames *f = mps__alloc(c, 1, sizeof *f);
-    if (!f) return pieces ? mps__ranks_tell(&w->ranks, MPS_E_NOMEM) : MPS_E_NOMEM;
+    if (!f) return pieces ? mps__ranks_report(&w->ranks, MPS_E_NOMEM) : MPS_E_NOMEM;
     f->world = w;
     f->kinds = (kinds & some ? kinds & some : MPS_FRAMES_FLUID | MPS_FRAMES_WALL) |
                (kinds & MPS_FRAMES_TANK);
@@ -396,10 +396,10 @@ mps_status mps_frames_write(mps_frames *frames)
             w->context, MPS_E_BUSY,
             "mps_frames_write() was called from %s: call it when mps_step() has returned",
             w->context->lock.what);
-    if (mps__ranks_many(&w->ranks) && f->pieces == w->gathered.begun)
+    if (mps__ranks_many(&w->ranks) && f->pieces == w->collected.begun)
         return mps__fail(w->context, MPS_E_STATE,
-                         f->pieces ? "frames in pieces: call mps_particles_gather_end() first"
-                                   : "the frames of many ranks: call mps_particles_gather() "
+                         f->pieces ? "frames in pieces: call mps_particles_collect_end() first"
+                                   : "the frames of many ranks: call mps_particles_collect() "
                                      "first, or open them with MPS_FRAMES_PIECES");
     MPS__TRY(mps__world_fetch(w));
     if (f->pieces) return write_own_piece(f);

@@ -112,7 +112,7 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
     MPS__TRY(mps__world_fetch(w));
     MPS__TRY(mps__world_fetch_searched(w));
     k->taken = false;
-    MPS__TRY(mps__ranks_tell(&w->ranks, reserve(k)));
+    MPS__TRY(mps__ranks_report(&w->ranks, reserve(k)));
     take_particles(k);
     mps__kept_take(k);
     k->state = w->state;
@@ -124,7 +124,7 @@ mps_status mps_snapshot_take(mps_snapshot *snapshot)
     k->load = w->load;
     k->body = w->body.state;
     k->geometry = sim->solids;
-    k->screens = w->lists.screens.count;
+    k->occluders = w->lists.occluders.count;
     k->taken = true;
     return MPS_OK;
 }
@@ -144,7 +144,7 @@ static mps_status check_setup(mps_snapshot *k)
 {
     const mps__world *w = &k->sim->world;
     const mps__particles *s = &w->particles;
-    if (k->geometry != k->sim->solids || k->screens != w->lists.screens.count)
+    if (k->geometry != k->sim->solids || k->occluders != w->lists.occluders.count)
         return changed(k, "geometry");
     bool same = k->models == w->models.active;
     for (int32_t m = 0; same && m < k->models; m++) same = k->model[m] == w->models.on[m].ops;
@@ -260,7 +260,7 @@ static void restore_particles(mps_snapshot *k, const arrival *a)
         copy_fields(k);
     else
         fill_store(k);
-    mps__twins_forget(&w->host.twins);
+    mps__memory_forget(&w->runner.memory);
     s->next_id = k->next_id;
     s->written = k->written;
     w->lists.linked = k->linked ? s->solids : -1;

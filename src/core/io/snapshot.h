@@ -36,7 +36,7 @@ struct mps_snapshot {
     int64_t n, known, next_id;
     int64_t generation, orders; /* of the store */
     bool linked, listed, written;
-    int32_t geometry, screens; /* solids and plates of the set-up */
+    int32_t geometry, occluders; /* solids and plates of the set-up */
     int32_t fields;
     mps__copy field[MPS__FIELDS_MAX];
     uint8_t *ghost; /* [known] */

@@ -89,7 +89,7 @@ static mps_status add_half_cells(const mps__world *w, double *volume)
     const mps_neighbours *l = &w->lists.neighbours;
     const bool kept = l->valid && !l->torn && l->n == s->n && w->lists.listed == s->generation;
     if (kept) MPS__TRY(mps__world_fetch_lists(w));
-    if (w->state.step == 0 || (kept && !w->gathered.swapped)) {
+    if (w->state.step == 0 || (kept && !w->collected.swapped)) {
         *volume += half_cells(w, l);
         return MPS_OK;
     }

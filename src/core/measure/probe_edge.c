@@ -53,7 +53,7 @@ static double from_edge(const mps__face *f, const mps__face_point *u, const mps_
     return square;
 }
 
-static mps_status add_share(mps__edges *e, mps__context *c, mps__edge_share share)
+static mps_status add_share(mps__edges *e, mps__context *c, mps__edge_weight share)
 {
     MPS__TRY(mps__grow(c, (void **)&e->share, &e->share_capacity, e->shares, e->shares + 1,
                        sizeof share));
@@ -79,9 +79,9 @@ static mps_status find_shares(mps__edges *e, mps__context *c, const mps__face *f
         if (!f->list[k].inside || w == 0) continue;
         MPS__TRY(add_share(
             e, c,
-            (mps__edge_share){.of = k,
-                              .mean = weight_at(square, near) / sum,
-                              .line = w * (column[0] + column[1] * q[0] + column[2] * q[1])}));
+            (mps__edge_weight){.of = k,
+                               .mean = weight_at(square, near) / sum,
+                               .line = w * (column[0] + column[1] * q[0] + column[2] * q[1])}));
     }
     return MPS_OK;
 }

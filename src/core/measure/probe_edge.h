@@ -7,10 +7,10 @@
 
 /* A particle that belongs to the face alone, and its weights in the mean beside the edge and in the
  * line extrapolated to the edge. */
-typedef struct mps__edge_share {
+typedef struct mps__edge_weight {
     int64_t of; /* index in the list of the face, later in that of the sensor */
     double mean, line;
-} mps__edge_share;
+} mps__edge_weight;
 
 /* A particle on the edge. */
 typedef struct mps__edge {
@@ -21,7 +21,7 @@ typedef struct mps__edge {
 typedef struct mps__edges {
     int64_t count, capacity, shares, share_capacity;
     mps__edge *list;
-    mps__edge_share *share;
+    mps__edge_weight *share;
 } mps__edges;
 
 /* Find the weights for all edge particles that have a sensor weight. */

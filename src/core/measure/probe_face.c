@@ -20,7 +20,7 @@ static const double flat = 0.25, beside = 1.6, cover = 1.2, foot_gap = 1.3, arou
 
 /* Cosines: of the largest angle between a normal and the requested one, and of the smallest angle
  * between two faces. */
-static const double looks_there = 0.8660254037844386, looks_elsewhere = 0.9;
+static const double looks_at = 0.8660254037844386, looks_elsewhere = 0.9;
 
 /* Cosine of the smallest angle between faces at an edge, 39 degrees. A curved face of radius 5 dp
  * turns by less within the reach of a sensor. */
@@ -120,7 +120,7 @@ static bool is_wanted(const mps__face *f, const solid *e)
 {
     const double most = (near + 1e-6) * f->dp;
     return !f->wanted ||
-           (mps__dot(e->n, f->wanted, 3) >= looks_there && remoteness(f, e) <= most * most);
+           (mps__dot(e->n, f->wanted, 3) >= looks_at && remoteness(f, e) <= most * most);
 }
 
 /* Closest wall particle of a face. At equal distance the one facing the sensor, then the lower id.

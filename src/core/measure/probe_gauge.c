@@ -133,7 +133,7 @@ static mps_status line_collect(line *l, mps__world *w, uint32_t phases)
         b.id = s->id[i];
         b.solid = !fluid;
         b.top = fluid && s->region[i] == MPS_REGION_SURFACE;
-        b.share = mps__plates_share(w, i);
+        b.share = mps__plates_fraction(w, i);
         if (s->kind[i] == MPS_WALL) wall_facing(l, s, i, &b);
         MPS__TRY(
             mps__grow(w->context, (void **)&l->list, &capacity, l->count, l->count + 1, sizeof b));
@@ -229,38 +229,38 @@ static double crossing(const line *l, double low, double high, bool ceiling)
 /* A gap in the filling that is not the surface: it closes again within a spacing. */
 static bool gap_closes(const line *l, double s, double step)
 {
-    for (double ahead = step; ahead < 1.01 * l->dp; ahead += step)
-        if (line_sample(l, s + ahead).fill >= 0.5) return true;
+    for (double distance = step; distance < 1.01 * l->dp; distance += step)
+        if (line_sample(l, s + distance).fill >= 0.5) return true;
     return false;
 }
 
 /* Distance by which the band can move in direction `sign` of side e until it is as close to a solid
  * as to the first one. */
-static double room(const line *l, double s, const double shift[2], int32_t e, double sign)
+static double clearance(const line *l, double s, const double shift[2], int32_t e, double sign)
 {
     double least = INFINITY;
     for (int64_t k = first_from(l, s - 1.01 * l->dp);
          k < l->count && l->list[k].s <= s + 1.01 * l->dp; k++) {
         const beside *b = &l->list[k];
-        const double ahead = sign * (b->across[e] - shift[e]);
-        if (!b->solid || ahead <= 0) continue;
+        const double distance = sign * (b->across[e] - shift[e]);
+        if (!b->solid || distance <= 0) continue;
         if (l->sides == 2 && fabs(b->across[1 - e] - shift[1 - e]) >= 4.0 / 3.0 * l->width)
             continue;
-        least = fmin(least, ahead - 4.0 / 3.0 * l->width);
+        least = fmin(least, distance - 4.0 / 3.0 * l->width);
     }
     return least;
 }
 
-/* Slope of the surface along side e, from a second band at distance `ahead`; 0 if it is steeper
- * than the width of the first band: that is the end of a run-up. Its weight decreases to 0 between
- * slopes of 1/2 and 1. */
-static double slope_ahead(line *l, double surface, int32_t e, double ahead)
+/* Slope of the surface along side e, from a second band at distance `distance`; 0 if it is
+ * steeper than the width of the first band: that is the end of a run-up. Its weight decreases to 0
+ * between slopes of 1/2 and 1. */
+static double slope_ahead(line *l, double surface, int32_t e, double distance)
 {
-    const double low = surface - fabs(ahead), high = surface + fabs(ahead);
+    const double low = surface - fabs(distance), high = surface + fabs(distance);
     double slope = 0;
-    l->extra[e] = ahead;
+    l->extra[e] = distance;
     if (line_sample(l, low).fill >= 0.5 && line_sample(l, high).fill < 0.5)
-        slope = (crossing(l, low, high, false) - surface) / ahead;
+        slope = (crossing(l, low, high, false) - surface) / distance;
     l->extra[e] = 0;
     return slope * fmin(fmax(2 - 2 * fabs(slope), 0), 1);
 }
@@ -281,9 +281,9 @@ static double at_line(line *l, double surface)
     band_shift(l, surface, shift);
     for (int32_t e = 0; e < l->sides; e++) {
         const double sign = shift[e] > 0 ? 1 : -1,
-                     ahead = fmin(l->width, room(l, surface, shift, e, sign));
-        if (shift[e] != 0 && ahead >= 0.5 * l->width)
-            out -= trust * shift[e] * slope_ahead(l, surface, e, sign * ahead);
+                     distance = fmin(l->width, clearance(l, surface, shift, e, sign));
+        if (shift[e] != 0 && distance >= 0.5 * l->width)
+            out -= trust * shift[e] * slope_ahead(l, surface, e, sign * distance);
     }
     return out;
 }

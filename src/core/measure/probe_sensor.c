@@ -10,7 +10,7 @@
  * face has its own pressure: probe_edge.c. */
 #include "probe_sensor.h"
 #include "angles.h"
-#include "gather.h"
+#include "collect.h"
 #include "probe_face.h"
 #include <math.h>
 #include <stdlib.h>
@@ -278,12 +278,12 @@ static bool is_old(const mps__world *w, const mps__sensor *sensor)
 
 static mps_status build_again(mps__world *w, const mps_probe *config, mps__sensor *sensor)
 {
-    MPS__TRY(mps__gather_solids(w));
+    MPS__TRY(mps__collect_solids(w));
     mps_status status = isfinite(mps__sensor_distance(w, config->at))
                             ? mps__sensor_build(w, config, sensor)
                             : mps__fail(w->context, MPS_E_STATE,
                                         "wall pressure: there is no wall particle any more");
-    mps__gather_end(w);
+    mps__collect_end(w);
     return status;
 }
 

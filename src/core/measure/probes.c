@@ -2,7 +2,7 @@
 /* Probes: checks of new probes, forces. Wall sensors, fluid pressures, gauges and series have their
  * own files. */
 #include "probes.h"
-#include "gather.h"
+#include "collect.h"
 #include "plates.h"
 #include "probe_fluid.h"
 #include "probe_gauge.h"
@@ -334,10 +334,10 @@ static mps_status prepare(mps__world *w, const mps__probes *all, mps__probe *p,
     MPS__TRY(take_name(w->context, all, p));
     MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF));
     MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_AREA));
-    MPS__TRY(mps__gather_solids(w));
+    MPS__TRY(mps__collect_solids(w));
     mps_status status = check_probe(w, &p->config, place);
     if (status == MPS_OK) status = complete(w, p);
-    mps__gather_end(w);
+    mps__collect_end(w);
     return status;
 }
 
@@ -450,10 +450,10 @@ static void note_lag(mps__world *w, mps__probes *p, int64_t k)
 {
     mps__probe *f = &p->list[k];
     char label[MPS__PROBE_LABEL];
-    if (f->lag_told || f->config.type != MPS_PROBE_FORCE || !w->motion.posed ||
+    if (f->lag_logged || f->config.type != MPS_PROBE_FORCE || !w->motion.posed ||
         w->load.watch != MPS_LOAD_NONE || window(w, &f->config) == 0)
         return;
-    f->lag_told = true;
+    f->lag_logged = true;
     mps__log(w->context, MPS_LOG_WARNING,
              "t = %.6g s: probe %s averages a force over the last %.3g s, so it lags and must not "
              "drive a body: that is what mps_load_watch() and mps_load_get() are for",

@@ -13,8 +13,8 @@ typedef struct mps__probe {
     char part_name[MPS__PART_NAME], name[MPS__PART_NAME]; /* "": none; config.name is NULL */
     mps__sensor sensor;                                   /* of a wall pressure */
     mps__series series;                                   /* of an average or a rate */
-    bool removed;  /* its index stays in use: numbers are not reused */
-    bool lag_told; /* a warning that its force must not drive a rigid body */
+    bool removed;    /* its index stays in use: numbers are not reused */
+    bool lag_logged; /* a warning that its force must not drive a rigid body */
 } mps__probe;
 
 typedef struct mps__probes {

@@ -315,7 +315,7 @@ mps_status mps__channels_reserve(mps__channels *c, int64_t n)
 {
     const int64_t even = n + n % 2, had = c->stride > 0 ? (int64_t)c->held / c->stride : 0;
     if (even > had) {
-        const int64_t wanted = mps__room(even, had) + 1;
+        const int64_t wanted = mps__capacity_for(even, had) + 1;
         mps__free(c->context, c->arena);
         c->held = 0;
         c->arena = mps__alloc(c->context, wanted - wanted % 2, (size_t)c->stride);

@@ -196,7 +196,7 @@ mps__carry mps__motion_carry(const mps__motion *m, const mps__pose *pose)
     return k;
 }
 
-bool mps__motion_turned(const mps__pose *pose)
+bool mps__motion_rotated(const mps__pose *pose)
 {
     bool turned = false;
     for (int k = 0; k < 9; k++) turned |= pose->rotation[k] != (k % 4 == 0);

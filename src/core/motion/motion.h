@@ -32,7 +32,7 @@ typedef struct mps__motion {
     double t_end;                                 /* last time for which the motion is defined */
     /* Longest step from t, at most dt, that resolves the motion [s]. NULL: unknown */
     double (*longest)(const void *user, double t, double dt);
-    bool told;         /* the log has the warning that a fixed step is longer than that */
+    bool logged;       /* the log has the warning that a fixed step is longer than that */
     mps__posed *posed; /* `user`, if the motion interpolates between two poses, else NULL */
     mps_motion_state hold;
     mps__pose now; /* at the present time */
@@ -126,7 +126,7 @@ void mps__motion_view_next(const mps__pose *pose, mps_tank_pose *view);
 /* Velocity of the tank at the time of a pose. */
 mps__carry mps__motion_carry(const mps__motion *m, const mps__pose *pose);
 /* Whether the tank's axes differ from those of the lab. */
-bool mps__motion_turned(const mps__pose *pose);
+bool mps__motion_rotated(const mps__pose *pose);
 /* Rotate a vector of the tank's frame into the lab. */
 void mps__motion_rotate(const mps__motion *m, const mps__pose *pose, const double *V, double *v);
 /* Rotate a vector of the lab into the tank's frame. */

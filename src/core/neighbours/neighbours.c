@@ -51,19 +51,19 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
 {
     if (n <= l->capacity) return MPS_OK;
     mps__context *c = l->context;
-    const int64_t wanted = mps__room(n, l->capacity);
+    const int64_t wanted = mps__capacity_for(n, l->capacity);
     struct {
         void **place;
         int64_t count;
         size_t size;
         void *fresh;
-    } a[] = {{(void **)&l->begin, mps__scan_room(wanted), sizeof *l->begin, NULL},
+    } a[] = {{(void **)&l->begin, mps__scan_size(wanted), sizeof *l->begin, NULL},
              {(void **)&l->count, wanted, sizeof *l->count, NULL},
              {(void **)&l->middle, wanted, sizeof *l->middle, NULL},
-             {(void **)&l->near_begin, mps__scan_room(wanted + 1), sizeof *l->near_begin, NULL},
+             {(void **)&l->near_begin, mps__scan_size(wanted + 1), sizeof *l->near_begin, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
              {(void **)&l->idle, wanted, sizeof *l->idle, NULL},
-             {(void **)&l->rim, wanted, sizeof *l->rim, NULL}};
+             {(void **)&l->boundary, wanted, sizeof *l->boundary, NULL}};
     const size_t count = sizeof a / sizeof a[0];
     for (size_t k = 0; k < count; k++) {
         a[k].fresh = mps__alloc(c, a[k].count, a[k].size);
@@ -100,7 +100,7 @@ typedef struct search {
     double reach2;
     bool sorted; /* sorted index a is particle a */
     bool ghost_rows, dummy_rows;
-    int64_t n, room; /* particles; capacity of col */
+    int64_t n, capacity; /* particles; capacity of col */
     const uint64_t *key;
     const int32_t *order;
     const double *place;          /* positions in sorted order, one axis after the other */
@@ -109,7 +109,7 @@ typedef struct search {
     const uint8_t *ghost;         /* NULL: single rank */
     int64_t *begin, *middle, *end;
     int32_t *count, *col;
-    uint8_t *rim, *idle;
+    uint8_t *boundary, *idle;
     atomic_int_least64_t *taken; /* entries of col that the rows need; may exceed its capacity */
     /* [MPS__PARTS] longest row of each part if it exceeds the stack buffer, else 0 */
     int64_t *longest;
@@ -220,7 +220,7 @@ typedef struct shelf {
 static bool take(const search *s, int64_t count, int64_t *at)
 {
     *at = atomic_fetch_add(s->taken, count);
-    return *at + count <= s->room;
+    return *at + count <= s->capacity;
 }
 
 /* Copy rows of sorted particles up to `to` from the buffer to col. If the capacity is exceeded they
@@ -289,7 +289,7 @@ MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, i
         const int32_t i = sorted ? (int32_t)a : s->order[a];
         const bool solid = s->kind && s->kind[i] != MPS_FLUID,
                    ghost = !mps__owns(s->ghost, i) && (solid || !s->ghost_rows);
-        s->rim[i] = dummies && !solid && !ghost;
+        s->boundary[i] = dummies && !solid && !ghost;
         s->idle[i] = ghost || (solid && (!fluid || (s->kind[i] == MPS_DUMMY && !s->dummy_rows)));
         if (!s->idle[i]) find_row(dim, sorted, s, a, range, ranges, &f);
         if (!s->idle[i] && solid) s->idle[i] = !meets_fluid(s, &f);
@@ -361,7 +361,7 @@ static search search_of(const mps_neighbours *l, bool sorted)
                     .middle = l->middle,
                     .end = l->end,
                     .count = l->count,
-                    .rim = l->rim,
+                    .boundary = l->boundary,
                     .idle = l->idle};
 }
 
@@ -378,7 +378,7 @@ static mps_status search_rows(mps_neighbours *l, bool sorted)
         MPS__TRY(
             mps__neighbours_fit(l, (void **)&l->col, &l->pair_capacity, expected, sizeof *l->col));
         s.col = l->col;
-        s.room = l->pair_capacity;
+        s.capacity = l->pair_capacity;
         atomic_init(&taken, 0);
         mps__loop_run_long(l->parallel, &search_parts, l->dim, MPS__PARTS, &s);
         l->pairs = expected = atomic_load(&taken);

@@ -5,7 +5,7 @@
 #define MPS_CORE_NEIGHBOURS_H
 
 #include "parallel.h"
-#include "screens.h"
+#include "occluders.h"
 #include <mps/operators.h>
 
 /* Parts of the particles; one thread makes the rows of a part. */
@@ -66,10 +66,10 @@ struct mps_neighbours {
     const uint8_t *ghost; /* NULL, or [n] 1: a ghost, which gets no row */
     /* unless this is set and it is fluid; rows at the edge of the ghost layer are incomplete */
     bool ghost_rows;
-    uint8_t *idle; /* [n] 1: a skipped solid */
-    uint8_t *rim;  /* [n] 1: fluid with dummies nearby; 0 if there are no kinds */
+    uint8_t *idle;     /* [n] 1: a skipped solid */
+    uint8_t *boundary; /* [n] 1: fluid with dummies nearby; 0 if there are no kinds */
     /* NULL, or the occluders; their near-plate particles are up to date */
-    const mps__screens *screens;
+    const mps__occluders *occluders;
 };
 
 mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_t dim, double dp);
@@ -97,8 +97,8 @@ typedef struct mps__order_arrays {
 } mps__order_arrays;
 /* The order of mps__neighbours_order() by loops on a device; the result is in there->order. NULL:
  * failed, mps__neighbours_order() reports the cause. */
-const int32_t *mps__neighbours_order_there(mps_neighbours *l, int64_t n, double re_far,
-                                           const mps__order_arrays *there);
+const int32_t *mps__neighbours_order_device(mps_neighbours *l, int64_t n, double re_far,
+                                            const mps__order_arrays *on_device);
 /* To be called when the particles have been permuted into l->order. */
 void mps__neighbours_sorted(mps_neighbours *l, int64_t n);
 /* Search candidates; positions must be finite and are not copied. Rows are exact, but occluders are
@@ -117,13 +117,13 @@ typedef struct mps__search_arrays {
     int64_t *begin; /* [n], with the workspace of its scan */
     int64_t *middle, *end;
     int32_t *count, *col;
-    uint8_t *idle, *rim;
+    uint8_t *idle, *boundary;
 } mps__search_arrays;
 /* Count the candidates of each row, and allocate l->pairs entries. If l->longest > 0, a row is too
- * long for the functions below. `there` needs no `col`. */
-mps_status mps__neighbours_count_there(mps_neighbours *l, const mps__search_arrays *there);
+ * long for the functions below. `on_device` needs no `col`. */
+mps_status mps__neighbours_count_device(mps_neighbours *l, const mps__search_arrays *on_device);
 /* Store exact rows. */
-void mps__neighbours_fill_there(mps_neighbours *l, const mps__search_arrays *there);
+void mps__neighbours_fill_device(mps_neighbours *l, const mps__search_arrays *on_device);
 /* Keys of the cells of the last ordering. */
 void mps__neighbours_keys(const mps_neighbours *l, const double *x, uint64_t *key);
 /* Exact rows at other positions from the candidates; occluders are not applied. */
@@ -135,16 +135,17 @@ typedef struct mps__row_arrays {
     const int32_t *count;
     int64_t *middle, *end;
     int32_t *col;
-    const mps__screen *screen; /* occluders, if any */
-    const mps__seer *seer;
+    const mps__occluder *occluder; /* occluders, if any */
+    const mps__near_plate *near_plate;
     const int32_t *slot;
 } mps__row_arrays;
 /* mps__neighbours_rows() with arrays in another memory space. Only if no row exceeds the stack
  * buffer. */
-void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__row_arrays *there);
+void mps__neighbours_rows_device(mps_neighbours *l, const double *x,
+                                 const mps__row_arrays *on_device);
 /* Remove occluded pairs from exact rows. */
 void mps__neighbours_hide(mps_neighbours *l);
-void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there);
+void mps__neighbours_hide_device(const mps_neighbours *l, const mps__row_arrays *on_device);
 /* Set near_begin from the rows; the arrays are those of the list in the memory space of the
  * loops. */
 void mps__neighbours_near(const mps_neighbours *l, const int64_t *begin, const int64_t *middle,

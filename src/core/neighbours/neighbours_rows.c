@@ -69,14 +69,14 @@ MPS_ROW bool row_stands(const int dim, const exact *l, int64_t i, double *r2)
 }
 
 /* Workspace of a row. */
-typedef struct room {
+typedef struct workspace {
     double *r2;
     int32_t *far, *out;
-} room;
+} workspace;
 
 /* Few candidates have changed their part since the last step, so that the insertion sort is
  * cheap. */
-MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const room *r)
+MPS_ROW void part_again(const int dim, const exact *l, int64_t i, const workspace *r)
 {
     if (row_stands(dim, l, i, r->r2)) return;
     int32_t *const row = l->col + l->begin[i];
@@ -124,7 +124,8 @@ MPS_ROW void exact_row(const int dim, const exact *l, int64_t i)
 {
     double r2[MPS__ROW];
     int32_t far[MPS__ROW], out[MPS__ROW];
-    if (l->count[i] > 0 && l->count[i] <= MPS__ROW) part_again(dim, l, i, &(room){r2, far, out});
+    if (l->count[i] > 0 && l->count[i] <= MPS__ROW)
+        part_again(dim, l, i, &(workspace){r2, far, out});
 }
 #endif
 MPS__LOOP(exact_rows, exact_row, exact)
@@ -135,7 +136,7 @@ MPS_ROW void exact_part(const int dim, const exact *l, int64_t part)
     double *const r2 = l->scratch + 2 * l->longest * part;
     int32_t *const far = (int32_t *)(void *)(r2 + l->longest), *const out = far + l->longest;
     for (int64_t i = l->n * part / MPS__PARTS; i < l->n * (part + 1) / MPS__PARTS; i++)
-        if (l->count[i] > MPS__ROW) part_again(dim, l, i, &(room){r2, far, out});
+        if (l->count[i] > MPS__ROW) part_again(dim, l, i, &(workspace){r2, far, out});
 }
 MPS__LOOP(exact_parts, exact_part, exact)
 
@@ -164,9 +165,9 @@ mps_status mps__neighbours_part_long(mps_neighbours *l)
 
 /* Occlusion in the rows of near-plate particles. */
 typedef struct hiding {
-    const mps__screen *list;
-    int32_t screens;
-    const mps__seer *seer;
+    const mps__occluder *list;
+    int32_t occluders;
+    const mps__near_plate *near_plate;
     const int32_t *slot;
     const int64_t *begin;
     int64_t *middle, *end;
@@ -175,12 +176,13 @@ typedef struct hiding {
 
 /* Swap the visible pairs of from..to-1 with those from `out` on, in order. @return the end of the
  * visible ones */
-static int64_t keep_visible(const hiding *l, const mps__seer *a, int64_t from, int64_t to,
+static int64_t keep_visible(const hiding *l, const mps__near_plate *a, int64_t from, int64_t to,
                             int64_t out)
 {
     for (int64_t k = from; k < to; k++) {
         const int32_t j = l->col[k], slot = l->slot[j];
-        if (slot >= 0 && mps__screens_hidden(l->list, l->screens, a, &l->seer[slot])) continue;
+        if (slot >= 0 && mps__occluders_hidden(l->list, l->occluders, a, &l->near_plate[slot]))
+            continue;
         l->col[k] = l->col[out];
         l->col[out++] = j;
     }
@@ -190,7 +192,7 @@ static int64_t keep_visible(const hiding *l, const mps__seer *a, int64_t from, i
 /* Move occluded pairs behind the others. */
 MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 {
-    const mps__seer *a = &l->seer[k];
+    const mps__near_plate *a = &l->near_plate[k];
     const int64_t i = a->particle, middle = l->middle[i], last = l->end[i];
     (void)dim;
     l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
@@ -198,26 +200,26 @@ MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
 }
 MPS__LOOP_ANY(hide_rows, hide_row, hiding)
 
-void mps__neighbours_hide_there(const mps_neighbours *l, const mps__row_arrays *there)
+void mps__neighbours_hide_device(const mps_neighbours *l, const mps__row_arrays *on_device)
 {
-    const mps__screens *s = l->screens;
+    const mps__occluders *s = l->occluders;
     if (!s || s->count == 0) return;
-    mps__loop_run(l->parallel, &hide_rows, l->dim, s->seers,
-                  &(hiding){there->screen, s->count, there->seer, there->slot, there->begin,
-                            there->middle, there->end, there->col});
+    mps__loop_run(l->parallel, &hide_rows, l->dim, s->near_plates,
+                  &(hiding){on_device->occluder, s->count, on_device->near_plate, on_device->slot,
+                            on_device->begin, on_device->middle, on_device->end, on_device->col});
 }
 
 void mps__neighbours_hide(mps_neighbours *l)
 {
-    const mps__screens *s = l->screens;
+    const mps__occluders *s = l->occluders;
     if (!s) return;
-    mps__neighbours_hide_there(l, &(mps__row_arrays){.begin = l->begin,
-                                                     .middle = l->middle,
-                                                     .end = l->end,
-                                                     .col = l->col,
-                                                     .screen = s->list,
-                                                     .seer = s->seer,
-                                                     .slot = s->slot});
+    mps__neighbours_hide_device(l, &(mps__row_arrays){.begin = l->begin,
+                                                      .middle = l->middle,
+                                                      .end = l->end,
+                                                      .col = l->col,
+                                                      .occluder = s->list,
+                                                      .near_plate = s->near_plate,
+                                                      .slot = s->slot});
 }
 
 void mps__neighbours_rows(mps_neighbours *l, const double *x)
@@ -229,18 +231,19 @@ void mps__neighbours_rows(mps_neighbours *l, const double *x)
     mps__neighbours_hide(l);
 }
 
-void mps__neighbours_rows_there(mps_neighbours *l, const double *x, const mps__row_arrays *there)
+void mps__neighbours_rows_device(mps_neighbours *l, const double *x,
+                                 const mps__row_arrays *on_device)
 {
     exact rows = exact_of(l);
     l->x = x;
-    rows.x = there->x;
-    rows.begin = there->begin;
-    rows.count = there->count;
-    rows.middle = there->middle;
-    rows.end = there->end;
-    rows.col = there->col;
+    rows.x = on_device->x;
+    rows.begin = on_device->begin;
+    rows.count = on_device->count;
+    rows.middle = on_device->middle;
+    rows.end = on_device->end;
+    rows.col = on_device->col;
     mps__loop_run(l->parallel, &exact_rows, l->dim, l->n, &rows);
-    mps__neighbours_hide_there(l, there);
+    mps__neighbours_hide_device(l, on_device);
 }
 
 /* Number of near pairs of row i - 1 at index i; its prefix sum is the begin of row i. */

@@ -224,21 +224,21 @@ MPS_ROW bool begins_crowd(const mps__sorting *m, int64_t a)
 }
 MPS__FIRST(crowds, begins_crowd, mps__sorting)
 
-const int32_t *mps__neighbours_order_there(mps_neighbours *l, int64_t n, double re_far,
-                                           const mps__order_arrays *there)
+const int32_t *mps__neighbours_order_device(mps_neighbours *l, int64_t n, double re_far,
+                                            const mps__order_arrays *on_device)
 {
     double corner[6];
     mps__sorting m = {.n = n,
                       .run = 1,
-                      .id = there->id,
-                      .key = there->key,
-                      .order = there->order,
-                      .new_key = there->key + n,
-                      .new_order = there->order + n};
+                      .id = on_device->id,
+                      .key = on_device->key,
+                      .order = on_device->order,
+                      .new_key = on_device->key + n,
+                      .new_order = on_device->order + n};
     l->valid = l->sorted = false;
-    if (!find_cells(l, n, there->x, re_far + l->skin, corner)) return NULL;
+    if (!find_cells(l, n, on_device->x, re_far + l->skin, corner)) return NULL;
     mps__loop_run(l->parallel, &key_rows, l->dim, n,
-                  &(keying){l->cells, there->x, there->key, there->order});
+                  &(keying){l->cells, on_device->x, on_device->key, on_device->order});
     mps__merge_sort(l->parallel, &m);
     return mps__first_run(l->parallel, &crowds, n, &m) == n ? m.order : NULL;
 }

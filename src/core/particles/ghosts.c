@@ -17,7 +17,7 @@ void mps__ghosts_init(mps__ghosts *g, mps__context *context, mps__ranks *ranks,
                       mps__particles *particles)
 {
     *g = (mps__ghosts){
-        .context = context, .ranks = ranks, .particles = particles, .there = {.orders = -1}};
+        .context = context, .ranks = ranks, .particles = particles, .on_device = {.orders = -1}};
 }
 
 static void forget_route(mps__ghosts *g)
@@ -83,7 +83,7 @@ static mps_status append(mps__ghosts *g, int64_t count, int64_t aside)
     for (int64_t k = 0; k < count; k++) mps__ghosts_unpack(s, s->n + k, g->in + (size_t)k * bytes);
     s->n += count;
     return mps__grow(g->context, (void **)&g->ghost, &g->capacity, s->n - count,
-                     mps__room(s->n + aside, g->capacity), 1);
+                     mps__capacity_for(s->n + aside, g->capacity), 1);
 }
 
 /* ---- routes ---- */
@@ -407,51 +407,51 @@ void mps__ghosts_rows(const mps__ghosts *g, mps_range_fn rows, void *argument, i
 /* ---- values ---- */
 
 /* Pack the values of array a, interleaved by element with those of the other arrays. */
-static void pack(const mps__ghosts *g, const mps__shared *a, const char *staged, char *out,
+static void pack(const mps__ghosts *g, const mps__halo_array *a, const char *staged, char *out,
                  size_t bytes)
 {
     for (int64_t k = 0; k < g->sends; k++)
         memcpy(out + (size_t)k * bytes,
-               a->there ? staged + (size_t)k * a->bytes
-                        : (const char *)a->values + (size_t)g->send[k] * a->bytes,
+               a->on_device ? staged + (size_t)k * a->bytes
+                            : (const char *)a->values + (size_t)g->send[k] * a->bytes,
                a->bytes);
 }
 
-static void unpack(const mps__ghosts *g, const mps__shared *a, char *staged, const char *in,
+static void unpack(const mps__ghosts *g, const mps__halo_array *a, char *staged, const char *in,
                    size_t bytes)
 {
     for (int64_t k = 0; k < g->receives; k++)
-        memcpy(a->there ? staged + (size_t)k * a->bytes
-                        : (char *)a->values + (size_t)g->receive[k] * a->bytes,
+        memcpy(a->on_device ? staged + (size_t)k * a->bytes
+                            : (char *)a->values + (size_t)g->receive[k] * a->bytes,
                in + (size_t)k * bytes, a->bytes);
 }
 
-mps_status mps__ghosts_share_at(mps__ghosts *g, mps__device *d, const mps__shared *shared,
-                                int32_t count)
+mps_status mps__ghosts_exchange_at(mps__ghosts *g, mps__device *d, const mps__halo_array *shared,
+                                   int32_t count)
 {
     size_t bytes = 0, at = 0, staged = 0;
-    bool there = false;
+    bool on_device = false;
     if (!mps__ranks_many(g->ranks) || count == 0) return MPS_OK;
     for (int32_t a = 0; a < count; a++) bytes += shared[a].bytes;
-    for (int32_t a = 0; a < count; a++) there = there || shared[a].there;
+    for (int32_t a = 0; a < count; a++) on_device = on_device || shared[a].on_device;
     MPS__TRY(reserve_buffers(g, bytes));
-    if (there) MPS__TRY(mps__ghosts_fetch(g, d, shared, count));
+    if (on_device) MPS__TRY(mps__ghosts_fetch(g, d, shared, count));
     for (int32_t a = 0; a < count; at += shared[a++].bytes) {
         pack(g, &shared[a], g->staged + (size_t)g->sends * staged, g->out + at, bytes);
-        staged += shared[a].there ? shared[a].bytes : 0;
+        staged += shared[a].on_device ? shared[a].bytes : 0;
     }
     mps__ranks_exchange(g->ranks, &g->route, bytes, g->out, g->in);
     MPS__TRY(mps__ranks_status(g->ranks));
     at = staged = 0;
     for (int32_t a = 0; a < count; at += shared[a++].bytes) {
         unpack(g, &shared[a], g->staged + (size_t)g->receives * staged, g->in + at, bytes);
-        staged += shared[a].there ? shared[a].bytes : 0;
+        staged += shared[a].on_device ? shared[a].bytes : 0;
     }
-    return there ? mps__ghosts_bring(g, d, shared, count) : MPS_OK;
+    return on_device ? mps__ghosts_bring(g, d, shared, count) : MPS_OK;
 }
 
-mps_status mps__ghosts_share_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
-                                     double *x)
+mps_status mps__ghosts_exchange_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                        double *x)
 {
     MPS__TRY(reserve_buffers(g, sizeof *x));
     double *out = (double *)(void *)g->out, *in = (double *)(void *)g->in;

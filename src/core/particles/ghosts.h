@@ -21,18 +21,18 @@ typedef struct mps__placing {
 } mps__placing;
 
 /* Per-particle values of a halo exchange. */
-typedef struct mps__shared {
+typedef struct mps__halo_array {
     void *values;
-    size_t bytes; /* per particle */
-    bool there;   /* the array is in device memory */
-} mps__shared;
+    size_t bytes;   /* per particle */
+    bool on_device; /* the array is in device memory */
+} mps__halo_array;
 
 /* Ghost data in device memory. */
-typedef struct mps__ghosts_there {
+typedef struct mps__ghosts_device {
     mps__device *device; /* NULL: none yet */
     int64_t orders;      /* value of mps__ghosts.orders for which the data are valid; -1: none */
     mps__device_block ghost, send, receive, packets;
-} mps__ghosts_there;
+} mps__ghosts_device;
 
 typedef struct mps__ghosts {
     mps__context *context;
@@ -57,7 +57,7 @@ typedef struct mps__ghosts {
     char *out, *in;
     /* number of reorderings; each changes the indices of ghosts, sends and receives */
     int64_t orders;
-    mps__ghosts_there there;
+    mps__ghosts_device on_device;
     char *staged; /* staging buffer of packets of device arrays, both ways */
     int64_t staged_capacity;
 } mps__ghosts;
@@ -111,28 +111,29 @@ void mps__ghosts_reset(mps__ghosts *g, int64_t known);
 /* To be called before the store is permuted: particle order[k] moves to index k. */
 mps_status mps__ghosts_ordered(mps__ghosts *g, const int32_t *order);
 /* Halo exchange: copy the owners' values to the ghosts. `d`: the device that has the arrays marked
- * `there`; which arrays are on a device may differ between ranks. */
-mps_status mps__ghosts_share_at(mps__ghosts *g, mps__device *d, const mps__shared *shared,
-                                int32_t count);
+ * `on_device`; which arrays are on a device may differ between ranks. */
+mps_status mps__ghosts_exchange_at(mps__ghosts *g, mps__device *d, const mps__halo_array *shared,
+                                   int32_t count);
 /* Halo exchange of arrays on the host. */
-static inline mps_status mps__ghosts_share(mps__ghosts *g, const mps__shared *shared, int32_t count)
+static inline mps_status mps__ghosts_exchange(mps__ghosts *g, const mps__halo_array *shared,
+                                              int32_t count)
 {
-    return mps__ghosts_share_at(g, NULL, shared, count);
+    return mps__ghosts_exchange_at(g, NULL, shared, count);
 }
 /* Halo exchange of sparse values: particle i has x[index[i]], none if index[i] < 0. `d`: the device
  * that has both arrays; NULL: the host. */
-mps_status mps__ghosts_share_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
-                                     double *x);
+mps_status mps__ghosts_exchange_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,
+                                        double *x);
 
 /* `ghost` for row functions on a device; d NULL: on the host; returns NULL if this rank has no
- * ghosts. If it cannot be allocated, the device is marked as failed. ghosts_there.c */
+ * ghosts. If it cannot be allocated, the device is marked as failed. ghosts_device.c */
 const uint8_t *mps__ghosts_seen(mps__ghosts *g, mps__device *d);
 /* Release the device memory; before the device is detached. */
-void mps__ghosts_leave(mps__ghosts *g);
+void mps__ghosts_release_device(mps__ghosts *g);
 /* Copy packets of device arrays to g->staged, array by array, and from there to the ghosts. */
-mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+mps_status mps__ghosts_fetch(mps__ghosts *g, mps__device *d, const mps__halo_array *shared,
                              int32_t count);
-mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__shared *shared,
+mps_status mps__ghosts_bring(mps__ghosts *g, mps__device *d, const mps__halo_array *shared,
                              int32_t count);
 /* Copy packets of sparse values to `out` [sends], and from `in` [receives]. */
 mps_status mps__ghosts_fetch_indexed(mps__ghosts *g, mps__device *d, const int32_t *index,

@@ -64,7 +64,7 @@ mps_status mps__particles_init(mps__particles *s, mps__context *context, int32_t
         {"wall_of", 1, sizeof(int32_t), false, (void **)&s->wall_of},
         {"plate", 1, sizeof(int32_t), false, (void **)&s->plate},
         {"wall_pressure", 1, sizeof(double), true, (void **)&s->load},
-        {"held", 1, sizeof(uint8_t), false, (void **)&s->held},
+        {"held", 1, sizeof(uint8_t), false, (void **)&s->active},
     };
     for (size_t k = 0; k < sizeof built_in / sizeof built_in[0]; k++)
         MPS__TRY(mps__particles_field_add(s, built_in[k].name, built_in[k].components,
@@ -202,49 +202,49 @@ static bool in_order(const mps__particles *s, int64_t count, const int32_t *orde
     return true;
 }
 
-typedef struct gather_fields {
+typedef struct permute_fields {
     char *to;
     const char *from;
     const int32_t *order;
     size_t bytes; /* of an element */
-} gather_fields;
+} permute_fields;
 
-MPS_ROW void gather_row(const gather_fields *f, int64_t i, size_t bytes)
+MPS_ROW void permute_row(const permute_fields *f, int64_t i, size_t bytes)
 {
     memcpy(f->to + (size_t)i * bytes, f->from + (size_t)f->order[i] * bytes, bytes);
 }
 
 /* Permute elements. A copy of a constant size is inlined, of any other a call. */
-#define GATHER(name, size)                                                    \
-    MPS_ROW void name##_row(const int dim, const gather_fields *f, int64_t i) \
-    {                                                                         \
-        (void)dim;                                                            \
-        gather_row(f, i, size);                                               \
-    }                                                                         \
-    MPS__LOOP(name, name##_row, gather_fields)
-GATHER(gather_1, 1)
-GATHER(gather_4, 4)
-GATHER(gather_8, 8)
-GATHER(gather_16, 16)
-GATHER(gather_24, 24)
-GATHER(gather_any, f->bytes)
-#undef GATHER
+#define PERMUTE(name, size)                                                    \
+    MPS_ROW void name##_row(const int dim, const permute_fields *f, int64_t i) \
+    {                                                                          \
+        (void)dim;                                                             \
+        permute_row(f, i, size);                                               \
+    }                                                                          \
+    MPS__LOOP(name, name##_row, permute_fields)
+PERMUTE(permute_1, 1)
+PERMUTE(permute_4, 4)
+PERMUTE(permute_8, 8)
+PERMUTE(permute_16, 16)
+PERMUTE(permute_24, 24)
+PERMUTE(permute_any, f->bytes)
+#undef PERMUTE
 
-static const mps__loop *gather_of(size_t bytes)
+static const mps__loop *permute_of(size_t bytes)
 {
-    return bytes == 1    ? &gather_1
-           : bytes == 4  ? &gather_4
-           : bytes == 8  ? &gather_8
-           : bytes == 16 ? &gather_16
-           : bytes == 24 ? &gather_24
-                         : &gather_any;
+    return bytes == 1    ? &permute_1
+           : bytes == 4  ? &permute_4
+           : bytes == 8  ? &permute_8
+           : bytes == 16 ? &permute_16
+           : bytes == 24 ? &permute_24
+                         : &permute_any;
 }
 
-void mps__particles_gather(const mps_parallel *p, void *to, const void *from, int64_t count,
-                           const int32_t *order, size_t bytes)
+void mps__particles_permute_values(const mps_parallel *p, void *to, const void *from, int64_t count,
+                                   const int32_t *order, size_t bytes)
 {
-    mps__loop_run_cheap(p, gather_of(bytes), MPS__ANY_DIM, count,
-                        &(gather_fields){to, from, order, bytes});
+    mps__loop_run_cheap(p, permute_of(bytes), MPS__ANY_DIM, count,
+                        &(permute_fields){to, from, order, bytes});
 }
 
 /* Permute one array by way of `scratch`, which is as large as the array. */
@@ -252,7 +252,7 @@ static void permute_field(mps__particles *s, const mps__field *f, int64_t count,
                           const int32_t *order, char *scratch)
 {
     const size_t bytes = mps__field_element(f);
-    mps__particles_gather(s->parallel, scratch, *f->data, count, order, bytes);
+    mps__particles_permute_values(s->parallel, scratch, *f->data, count, order, bytes);
     mps__parallel_copy(s->parallel, *f->data, scratch, (size_t)count * bytes);
 }
 
@@ -264,7 +264,7 @@ static int64_t count_solids(const mps__particles *s)
 }
 
 /* Workspace for one array of n particles. */
-static char *room_to_move(mps__particles *s, int64_t n)
+static char *reserve_move(mps__particles *s, int64_t n)
 {
     size_t largest = sizeof(int32_t);
     for (int32_t k = 0; k < s->fields; k++)
@@ -275,24 +275,24 @@ static char *room_to_move(mps__particles *s, int64_t n)
 
 mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n)
 {
-    return room_to_move(s, n) ? MPS_OK : MPS_E_NOMEM;
+    return reserve_move(s, n) ? MPS_OK : MPS_E_NOMEM;
 }
 
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order)
 {
-    static const bool old[MPS__FIELDS_MAX] = {false};
-    return mps__particles_reorder(s, count, order, old);
+    static const bool stale[MPS__FIELDS_MAX] = {false};
+    return mps__particles_reorder(s, count, order, stale);
 }
 
 mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_t *order,
-                                  const bool *old)
+                                  const bool *stale)
 {
     if (in_order(s, count, order)) return MPS_OK;
     const int64_t solids = count != s->n ? count_solids(s) : 0;
-    char *scratch = room_to_move(s, s->n);
+    char *scratch = reserve_move(s, s->n);
     if (!scratch) return MPS_E_NOMEM;
     for (int32_t k = 0; k < s->fields; k++) {
-        if (old[k]) continue;
+        if (stale[k]) continue;
         permute_field(s, &s->field[k], count, order, scratch);
         mps__array_invalidate(mps__field_array(&s->field[k]), MPS__ON_DEVICE);
     }

@@ -59,7 +59,7 @@ typedef struct mps__particles {
     int64_t *id;          /* [n] stable, ascending at creation */
     int32_t *kind, *phase, *part;
     int32_t *region; /* [n] MPS_REGION_... of the last step */
-    uint8_t *held;   /* [n] 1: its lower bound of the pressure was active in the last step */
+    uint8_t *active; /* [n] 1: its lower bound of the pressure was active in the last step */
     /* [n] index of a dummy's wall particle, -1: none; updated by permutations */
     int32_t *wall_of;
     int64_t *wall_id; /* on many ranks [n] id of that wall particle, -1: none; else NULL */
@@ -110,13 +110,13 @@ int64_t mps__particles_append(mps__particles *s, int64_t count, int32_t kind);
 /* Move particle order[k] to index k for k < count; particles that are not in `order` are
  * removed. */
 mps_status mps__particles_permute(mps__particles *s, int64_t count, const int32_t *order);
-/* mps__particles_permute() without the fields marked in `old` [fields], whose values are
+/* mps__particles_permute() without the fields marked in `stale` [fields], whose values are
  * elsewhere. */
 mps_status mps__particles_reorder(mps__particles *s, int64_t count, const int32_t *order,
-                                  const bool *old);
+                                  const bool *stale);
 /* Copy element order[k] of `from`, of `bytes` bytes, to index k < count of `to`. */
-void mps__particles_gather(const mps_parallel *p, void *to, const void *from, int64_t count,
-                           const int32_t *order, size_t bytes);
+void mps__particles_permute_values(const mps_parallel *p, void *to, const void *from, int64_t count,
+                                   const int32_t *order, size_t bytes);
 /* After this call mps__particles_permute() cannot fail for up to n particles, until the workspace
  * is used otherwise. */
 mps_status mps__particles_permute_reserve(mps__particles *s, int64_t n);

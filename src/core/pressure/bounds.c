@@ -27,7 +27,7 @@ static const double ACCURATE = 1000;
 struct mps__bound {
     int64_t row;
     double least, margin; /* [Pa] */
-    bool held;
+    bool active;
 };
 
 /* Saved entry of the matrix, with right side and shift of its row. */
@@ -46,7 +46,7 @@ void mps__bounds_free(mps__bounds *b)
 {
     mps__free(b->context, b->list);
     mps__free(b->context, b->change);
-    mps__free(b->context, b->pinned);
+    mps__free(b->context, b->fixed);
     mps__free(b->context, b->mark);
     mps__bounds_init(b, b->context);
 }
@@ -67,7 +67,7 @@ static mps_status collect(mps__bounds *b, const mps__ppe *e, const mps_view *s,
                            sizeof *b->list));
         const double margin = MPS__BOUNDS_NEARLY * t->flux->density[i] * s->velocity_scale *
                               s->velocity_scale;
-        b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->held[i] != 0};
+        b->list[b->count++] = (struct mps__bound){r, t->value[i], margin, b->active[i] != 0};
     }
     return MPS_OK;
 }
@@ -80,13 +80,13 @@ static void note(mps__bounds *b, const mps__ppe *e, int64_t row, int64_t place)
 
 /* Fix row r: p = least if it is active, otherwise the pressures of its active columns become
  * known. */
-static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
+static mps_status fix(mps__bounds *b, mps__ppe *e, int64_t r)
 {
-    const bool own = isfinite(b->pinned[r]);
+    const bool own = isfinite(b->fixed[r]);
     MPS__TRY(mps__grow(b->context, (void **)&b->change, &b->changes_capacity, b->changes,
                        b->changes + e->row[r + 1] - e->row[r] + 1, sizeof *b->change));
     for (int64_t p = e->row[r]; p < e->row[r + 1]; p++) {
-        const double least = b->pinned[e->col[p]], kij = -(double)e->val[p];
+        const double least = b->fixed[e->col[p]], kij = -(double)e->val[p];
         if (kij == 0 || !(own || isfinite(least))) continue;
         note(b, e, r, p);
         e->val[p] = 0;
@@ -97,7 +97,7 @@ static mps_status pin(mps__bounds *b, mps__ppe *e, int64_t r)
     if (!own) return MPS_OK;
     note(b, e, r, -1);
     e->shift[r] = e->diagonal[r];
-    e->rhs[r] = e->diagonal[r] * b->pinned[r];
+    e->rhs[r] = e->diagonal[r] * b->fixed[r];
     return MPS_OK;
 }
 
@@ -108,28 +108,28 @@ static void mark_rows(mps__bounds *b, const mps__ppe *e)
     if (e->n > 0) memset(b->mark, 0, (size_t)e->n);
     for (int64_t k = 0; k < b->count; k++) {
         const int64_t r = b->list[k].row;
-        if (!b->list[k].held) continue;
+        if (!b->list[k].active) continue;
         b->mark[r] = 1;
         for (int64_t p = e->row[r]; p < e->row[r + 1]; p++)
             if (e->col[p] < e->n) b->mark[e->col[p]] = 1;
     }
     for (int64_t r = 0; e->problem.ranks && r < e->n; r++)
         for (int64_t p = e->row[r]; p < e->row[r + 1] && !b->mark[r]; p++)
-            b->mark[r] = e->col[p] >= e->n && isfinite(b->pinned[e->col[p]]);
+            b->mark[r] = e->col[p] >= e->n && isfinite(b->fixed[e->col[p]]);
 }
 
-static mps_status pin_rows(mps__bounds *b, mps__ppe *e)
+static mps_status fix_rows(mps__bounds *b, mps__ppe *e)
 {
-    MPS__TRY(mps__grow(b->context, (void **)&b->pinned, &b->pinned_capacity, 0, e->columns + 1,
-                       sizeof *b->pinned));
+    MPS__TRY(mps__grow(b->context, (void **)&b->fixed, &b->fixed_capacity, 0, e->columns + 1,
+                       sizeof *b->fixed));
     MPS__TRY(mps__grow(b->context, (void **)&b->mark, &b->mark_capacity, 0, e->n + 1, 1));
-    for (int64_t c = 0; c < e->columns; c++) b->pinned[c] = NAN;
+    for (int64_t c = 0; c < e->columns; c++) b->fixed[c] = NAN;
     for (int64_t k = 0; k < b->count; k++)
-        if (b->list[k].held) b->pinned[b->list[k].row] = b->still ? 0 : b->list[k].least;
-    if (mps_ppe_share(&e->problem, b->pinned)) return mps__ranks_status(e->ghosts->ranks);
+        if (b->list[k].active) b->fixed[b->list[k].row] = b->still ? 0 : b->list[k].least;
+    if (mps_ppe_halo(&e->problem, b->fixed)) return mps__ranks_status(e->ghosts->ranks);
     mark_rows(b, e);
     for (int64_t r = 0; r < e->n; r++)
-        if (b->mark[r]) MPS__TRY(pin(b, e, r));
+        if (b->mark[r]) MPS__TRY(fix(b, e, r));
     return MPS_OK;
 }
 
@@ -152,9 +152,9 @@ static double residual(const mps__ppe *e, int64_t r)
 }
 
 /* Logical or over all ranks. */
-static bool on_any_rank(const mps__ppe *e, bool here)
+static bool on_any_rank(const mps__ppe *e, bool on_this_rank)
 {
-    double any = here;
+    double any = on_this_rank;
     if (e->problem.ranks) mps__ranks_max(e->ghosts->ranks, 1, &any);
     return any > 0;
 }
@@ -164,33 +164,34 @@ static bool on_any_rank(const mps__ppe *e, bool here)
 static bool choose(mps__bounds *b, const mps__ppe *e, double seen)
 {
     bool changed = false;
-    if (e->device) return b->any && on_any_rank(e, mps__bounds_choose_there(b, e, seen));
+    if (e->device) return b->any && on_any_rank(e, mps__bounds_choose_device(b, e, seen));
     for (int64_t k = 0; k < b->count; k++) {
         struct mps__bound *row = &b->list[k];
-        const bool held = row->held ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
-                                    : e->p[row->row] < row->least - row->margin;
-        changed = changed || held != row->held;
-        row->held = held;
+        const bool active = row->active
+                                ? residual(e, row->row) >= -row->margin * e->diagonal[row->row]
+                                : e->p[row->row] < row->least - row->margin;
+        changed = changed || active != row->active;
+        row->active = active;
     }
     return on_any_rank(e, changed);
 }
 
-static mps_status solve_held(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
-                             const mps__effort *effort, mps_ppe_result *result)
+static mps_status solve_active(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
+                               const mps__effort *effort, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
     solvers->hint = (mps__pcg_hint){
-        .owner = b, .seen = NAN, .doubt = e->device ? &e->counts_there->lacking : NULL};
-    if (b->any && e->device) solvers->hint.look = mps__bounds_look_there;
+        .owner = b, .seen = NAN, .doubt = e->device ? &e->counts_device->lacking : NULL};
+    if (b->any && e->device) solvers->hint.look = mps__bounds_look_device;
     if (b->any && e->device)
-        status = mps__bounds_pin_there(b, e);
+        status = mps__bounds_fix_device(b, e);
     else if (b->any)
-        status = pin_rows(b, e);
+        status = fix_rows(b, e);
     if (status == MPS_OK)
         status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
     solvers->hint.look = NULL;
     if (b->any && e->device)
-        mps__bounds_free_there(b, e);
+        mps__bounds_restore_device(b, e);
     else
         let_go(b, e);
     return status;
@@ -202,7 +203,7 @@ static mps_status begin(mps__bounds *b, mps__ppe *e, const mps_view *s, const mp
     b->count = 0;
     if (e->device) {
         b->any = on_any_rank(e, e->bounded);
-        return b->any ? mps__bounds_begin_there(b, e, s, t) : MPS_OK;
+        return b->any ? mps__bounds_begin_device(b, e, s, t) : MPS_OK;
     }
     MPS__TRY(collect(b, e, s, t));
     b->any = on_any_rank(e, b->count > 0);
@@ -219,18 +220,19 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
     MPS__TRY(begin(b, e, s, t));
     bool last = !b->any;
     for (b->solves = 0; again; last = true) {
-        status = solve_held(b, solvers, e, &(mps__effort){last ? 1 : LOOSE, b->solves > 0}, result);
+        status = solve_active(b, solvers, e, &(mps__effort){last ? 1 : LOOSE, b->solves > 0},
+                              result);
         if (status < 0) return status;
         b->solves++;
         iterations += result->iterations;
         setup += result->setup_seconds;
-        if (mps_ppe_share(&e->problem, e->p)) return mps__ranks_status(e->ghosts->ranks);
+        if (mps_ppe_halo(&e->problem, e->p)) return mps__ranks_status(e->ghosts->ranks);
         const bool changed = status == MPS_OK && choose(b, e, solvers->hint.seen);
         again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }
     for (int64_t k = 0; k < b->count; k++)
-        if (b->list[k].held) t->condition[e->particle[b->list[k].row]] = MPS__ROW_HELD;
-    if (b->any && e->device) mps__bounds_tell_there(b, e);
+        if (b->list[k].active) t->condition[e->particle[b->list[k].row]] = MPS__ROW_ACTIVE;
+    if (b->any && e->device) mps__bounds_conditions_device(b, e);
     result->iterations = iterations;
     result->setup_seconds = setup;
     return status;
@@ -258,8 +260,8 @@ mps_status mps__bounds_solve_change(mps__bounds *b, mps__solvers *solvers, mps__
     linear.problem.rhs = rhs;
     linear.problem.gas = linear.problem.law = NULL;
     b->still = true;
-    const mps_status status = solve_held(b, solvers, &linear, &(mps__effort){ACCURATE, true},
-                                         result);
+    const mps_status status = solve_active(b, solvers, &linear, &(mps__effort){ACCURATE, true},
+                                           result);
     b->still = false;
     make_tangent(e, -1);
     return status;

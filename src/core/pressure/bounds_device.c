@@ -6,24 +6,24 @@
 #include <math.h>
 
 /* Active, with a finite bound. */
-MPS_ROW bool is_pinned(const mps__bound_rows *f, int64_t r)
+MPS_ROW bool is_fixed(const mps__bound_rows *f, int64_t r)
 {
-    return f->held[r] && isfinite(f->least[r]);
+    return f->active[r] && isfinite(f->least[r]);
 }
 
 /* Values for the halo exchange. */
-MPS_ROW void tell_pinned(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void write_fixed(const int dim, const mps__bound_rows *f, int64_t r)
 {
     (void)dim;
-    f->pinned[r] = is_pinned(f, r) ? f->least[r] : NAN;
+    f->fixed[r] = is_fixed(f, r) ? f->least[r] : NAN;
 }
-MPS__LOOP_ANY(tell_pinned_rows, tell_pinned, mps__bound_rows)
+MPS__LOOP_ANY(write_fixed_rows, write_fixed, mps__bound_rows)
 
 /* The pressure of an active column; NaN: not active. */
-MPS_ROW double pinned_at(const mps__bound_rows *f, int64_t c)
+MPS_ROW double fixed_at(const mps__bound_rows *f, int64_t c)
 {
-    if (c >= f->rows) return f->pinned[c];
-    return is_pinned(f, c) ? f->least[c] : NAN;
+    if (c >= f->rows) return f->fixed[c];
+    return is_fixed(f, c) ? f->least[c] : NAN;
 }
 
 MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
@@ -34,13 +34,13 @@ MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->least[r] = bounded ? f->value[i] : NAN;
     f->margin[r] = f->nearly * f->density[i] * f->speed * f->speed;
     f->bounded[r] = bounded;
-    f->held[r] = bounded && f->held_before[i] != 0;
+    f->active[r] = bounded && f->active_before[i] != 0;
 }
 MPS__LOOP_ANY(begin_rows, begin_row, mps__bound_rows)
 
-MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void fix_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
-    const bool own = is_pinned(f, r);
+    const bool own = is_fixed(f, r);
     double rhs = f->rhs[r], shift = f->shift[r];
     bool changed = own;
     (void)dim;
@@ -48,14 +48,14 @@ MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->kept_shift[r] = shift;
     for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) {
         const int64_t c = f->col[p];
-        const double pinned = pinned_at(f, c);
+        const double fixed = fixed_at(f, c);
         const double kij = -(double)f->val[p];
         f->kept[p] = f->val[p];
-        if (kij == 0 || !(own || isfinite(pinned))) continue;
+        if (kij == 0 || !(own || isfinite(fixed))) continue;
         changed = true;
         f->val[p] = 0;
         if (own) continue;
-        rhs += kij * pinned;
+        rhs += kij * fixed;
         shift += kij;
     }
     f->changed[r] = changed;
@@ -63,7 +63,7 @@ MPS_ROW void pin_row(const int dim, const mps__bound_rows *f, int64_t r)
     f->shift[r] = own ? f->diagonal[r] : shift;
     f->rhs[r] = own ? f->diagonal[r] * f->least[r] : rhs;
 }
-MPS__LOOP_ANY(pin_rows, pin_row, mps__bound_rows)
+MPS__LOOP_ANY(fix_rows, fix_row, mps__bound_rows)
 
 /* Restore the assembled row, bit by bit. */
 MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
@@ -89,22 +89,22 @@ MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
 /* Next active set. The maximum: whether it has changed. */
 MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, double *changed)
 {
-    bool held = false;
+    bool active = false;
     (void)dim;
     if (f->bounded[r])
-        held = f->held[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
-                          : f->p[r] < f->least[r] - f->margin[r];
-    if (held != f->held[r]) changed[0] = 1;
-    f->next[r] = held;
+        active = f->active[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
+                              : f->p[r] < f->least[r] - f->margin[r];
+    if (active != f->active[r]) changed[0] = 1;
+    f->next[r] = active;
 }
 MPS__VALUES_ANY(choose_rows, choose_row, mps__bound_rows, 0, 1)
 
-MPS_ROW void tell_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void condition_row(const int dim, const mps__bound_rows *f, int64_t r)
 {
     (void)dim;
-    if (f->held[r]) f->condition[f->particle[r]] = MPS__ROW_HELD;
+    if (f->active[r]) f->condition[f->particle[r]] = MPS__ROW_ACTIVE;
 }
-MPS__LOOP_ANY(tell_rows, tell_row, mps__bound_rows)
+MPS__LOOP_ANY(condition_rows, condition_row, mps__bound_rows)
 
 static void run(const mps__bounds *b, const mps__ppe *e, const mps__loop *loop)
 {
@@ -117,23 +117,23 @@ static mps_status reserve(mps__bound_rows *f, mps__ppe *e)
     const size_t n = (size_t)e->n, entries = (size_t)e->entries,
                  columns = e->problem.ranks ? (size_t)e->columns : 0,
                  bytes = (4 * n + columns) * sizeof(double) + entries * sizeof *f->kept +
-                         4 * n * sizeof *f->held;
-    f->least = mps__device_fit(e->device, &e->there[MPS__PPE_BOUNDS], bytes);
+                         4 * n * sizeof *f->active;
+    f->least = mps__device_fit(e->device, &e->on_device[MPS__PPE_BOUNDS], bytes);
     if (!f->least) return MPS_E_NOMEM;
     f->margin = f->least + n;
     f->kept_rhs = f->margin + n;
     f->kept_shift = f->kept_rhs + n;
-    f->pinned = f->kept_shift + n;
-    f->kept = (float *)(void *)(f->pinned + columns);
+    f->fixed = f->kept_shift + n;
+    f->kept = (float *)(void *)(f->fixed + columns);
     f->bounded = (uint8_t *)(void *)(f->kept + entries);
-    f->held = f->bounded + n;
-    f->next = f->held + n;
+    f->active = f->bounded + n;
+    f->next = f->active + n;
     f->changed = f->next + n;
     return MPS_OK;
 }
 
-mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *s,
-                                   const mps__ppe_terms *t)
+mps_status mps__bounds_begin_device(mps__bounds *b, mps__ppe *e, const mps_view *s,
+                                    const mps__ppe_terms *t)
 {
     b->rows = (mps__bound_rows){.row = e->row,
                                 .col = e->col,
@@ -146,7 +146,7 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
                                 .value = t->value,
                                 .density = t->flux->density,
                                 .condition = t->condition,
-                                .held_before = b->held,
+                                .active_before = b->active,
                                 .rows = e->n,
                                 .nearly = MPS__BOUNDS_NEARLY,
                                 .speed = s->velocity_scale};
@@ -157,41 +157,41 @@ mps_status mps__bounds_begin_there(mps__bounds *b, mps__ppe *e, const mps_view *
     return MPS_OK;
 }
 
-mps_status mps__bounds_pin_there(const mps__bounds *b, const mps__ppe *e)
+mps_status mps__bounds_fix_device(const mps__bounds *b, const mps__ppe *e)
 {
     if (e->problem.ranks) {
-        run(b, e, &tell_pinned_rows);
-        if (mps_ppe_share(&e->problem, b->rows.pinned)) return mps__ranks_status(e->ghosts->ranks);
+        run(b, e, &write_fixed_rows);
+        if (mps_ppe_halo(&e->problem, b->rows.fixed)) return mps__ranks_status(e->ghosts->ranks);
     }
-    run(b, e, &pin_rows);
+    run(b, e, &fix_rows);
     return MPS_OK;
 }
 
-void mps__bounds_free_there(const mps__bounds *b, const mps__ppe *e)
+void mps__bounds_restore_device(const mps__bounds *b, const mps__ppe *e)
 {
     run(b, e, &free_rows);
 }
 
-void mps__bounds_look_there(void *bounds, double *to)
+void mps__bounds_look_device(void *bounds, double *to)
 {
     const mps__bounds *b = bounds;
-    mps__values_gather(b->device, &choose_rows, MPS__ANY_DIM, b->unknowns, &b->rows, to);
+    mps__values_reduce_async(b->device, &choose_rows, MPS__ANY_DIM, b->unknowns, &b->rows, to);
 }
 
-bool mps__bounds_choose_there(mps__bounds *b, const mps__ppe *e, double seen)
+bool mps__bounds_choose_device(mps__bounds *b, const mps__ppe *e, double seen)
 {
-    uint8_t *before = b->rows.held;
+    uint8_t *before = b->rows.active;
     double changed = seen;
     if (isnan(seen)) {
         changed = 0;
         mps__values_run(e->parallel, &choose_rows, MPS__ANY_DIM, e->n, &b->rows, NULL, &changed);
     }
-    b->rows.held = b->rows.next;
+    b->rows.active = b->rows.next;
     b->rows.next = before;
     return changed > 0;
 }
 
-void mps__bounds_tell_there(const mps__bounds *b, const mps__ppe *e)
+void mps__bounds_conditions_device(const mps__bounds *b, const mps__ppe *e)
 {
-    run(b, e, &tell_rows);
+    run(b, e, &condition_rows);
 }

@@ -4,91 +4,91 @@
  * one parallel pass over the entries is enough: a union-find of rows, in which the representative
  * is the lowest row. */
 #include "levels.h"
-#include "forest.h"
+#include "union_find.h"
 #include "loop.h"
 #include <math.h>
 
-typedef struct forest {
+typedef struct components {
     int64_t n; /* rows of this rank */
     const int64_t *row;
     const int32_t *col;
     const double *shift;
-    mps__shared_number *parent;
-    mps__shared_number *level; /* of a representative: 1 if a row of its set has a datum */
+    mps__atomic_number *parent;
+    mps__atomic_number *datum; /* of a representative: 1 if a row of its set has a datum */
     /* [columns] value of the set of each column's row; NULL: single rank */
-    double *told;
-} forest;
+    double *datum_of;
+} components;
 
 /* Most rows join the set of their first column at once. */
-MPS_ROW void begin_row(const int dim, const forest *f, int64_t r)
+MPS_ROW void begin_row(const int dim, const components *f, int64_t r)
 {
     const int64_t first = f->row[r] < f->row[r + 1] ? f->col[f->row[r]] : r;
     (void)dim;
-    mps__forest_put(&f->parent[r], (int32_t)(first < r ? first : r));
-    mps__forest_put(&f->level[r], 0);
+    mps__atomic_put(&f->parent[r], (int32_t)(first < r ? first : r));
+    mps__atomic_put(&f->datum[r], 0);
 }
-MPS__LOOP_ANY(begin_rows, begin_row, forest)
+MPS__LOOP_ANY(begin_rows, begin_row, components)
 
-MPS_ROW void join_row(const int dim, const forest *f, int64_t r)
+MPS_ROW void join_row(const int dim, const components *f, int64_t r)
 {
     (void)dim;
     for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
         if (f->col[k] >= f->n) continue; /* column of another rank, at any position in the row */
         if (f->col[k] > r) break;
-        if (mps__forest_get(&f->parent[f->col[k]]) != mps__forest_get(&f->parent[r]))
-            mps__forest_join(f->parent, (int32_t)r, f->col[k]);
+        if (mps__atomic_get(&f->parent[f->col[k]]) != mps__atomic_get(&f->parent[r]))
+            mps__union_join(f->parent, (int32_t)r, f->col[k]);
     }
 }
-MPS__LOOP_ANY(join_rows, join_row, forest)
+MPS__LOOP_ANY(join_rows, join_row, components)
 
-MPS_ROW void raise_row(const int dim, const forest *f, int64_t r)
+MPS_ROW void raise_row(const int dim, const components *f, int64_t r)
 {
     (void)dim;
-    if (f->shift[r] > 0) mps__forest_put(&f->level[mps__forest_root(f->parent, (int32_t)r)], 1);
+    if (f->shift[r] > 0) mps__atomic_put(&f->datum[mps__union_find(f->parent, (int32_t)r)], 1);
 }
-MPS__LOOP_ANY(raise_rows, raise_row, forest)
+MPS__LOOP_ANY(raise_rows, raise_row, components)
 
-MPS_ROW bool lacks_level(const forest *f, int64_t r)
+MPS_ROW bool lacks_datum(const components *f, int64_t r)
 {
-    return mps__forest_get(&f->parent[r]) == r && mps__forest_get(&f->level[r]) == 0;
+    return mps__atomic_get(&f->parent[r]) == r && mps__atomic_get(&f->datum[r]) == 0;
 }
-MPS__FIRST(lacking_rows, lacks_level, forest)
+MPS__FIRST(lacking_rows, lacks_datum, components)
 
-MPS_ROW void tell_row(const int dim, const forest *f, int64_t r)
+MPS_ROW void send_row(const int dim, const components *f, int64_t r)
 {
     (void)dim;
-    f->told[r] = mps__forest_get(&f->level[mps__forest_root(f->parent, (int32_t)r)]);
+    f->datum_of[r] = mps__atomic_get(&f->datum[mps__union_find(f->parent, (int32_t)r)]);
 }
-MPS__LOOP_ANY(tell_rows, tell_row, forest)
+MPS__LOOP_ANY(send_rows, send_row, components)
 
 /* A set with a column of another rank takes over the datum of that row's set. The maximum: whether
  * any set got one. */
-MPS_ROW void hear_row(const int dim, const forest *f, int64_t r, double *any)
+MPS_ROW void receive_row(const int dim, const components *f, int64_t r, double *any)
 {
-    mps__shared_number *level = &f->level[mps__forest_root(f->parent, (int32_t)r)];
+    mps__atomic_number *datum = &f->datum[mps__union_find(f->parent, (int32_t)r)];
     (void)dim;
-    for (int64_t k = f->row[r]; k < f->row[r + 1] && f->told[r] == 0; k++) {
-        if (f->col[k] < f->n || !(f->told[f->col[k]] > 0)) continue;
-        mps__forest_put(level, 1);
+    for (int64_t k = f->row[r]; k < f->row[r + 1] && f->datum_of[r] == 0; k++) {
+        if (f->col[k] < f->n || !(f->datum_of[f->col[k]] > 0)) continue;
+        mps__atomic_put(datum, 1);
         any[0] = 1;
     }
 }
-MPS__VALUES_ANY(hear_rows, hear_row, forest, 0, 1)
+MPS__VALUES_ANY(receive_rows, receive_row, components, 0, 1)
 
-static forest forest_of(const mps__ppe *e)
+static components components_of(const mps__ppe *e)
 {
-    return (forest){.n = e->n,
-                    .row = e->row,
-                    .col = e->col,
-                    .shift = e->shift,
-                    .parent = (mps__shared_number *)(void *)e->queue,
-                    .level = (mps__shared_number *)(void *)e->component};
+    return (components){.n = e->n,
+                        .row = e->row,
+                        .col = e->col,
+                        .shift = e->shift,
+                        .parent = (mps__atomic_number *)(void *)e->queue,
+                        .datum = (mps__atomic_number *)(void *)e->component};
 }
 
 /* Union-find of the rows of this rank. */
-static forest grow_forest(const mps__ppe *e)
+static components find_components(const mps__ppe *e)
 {
-    const forest f = forest_of(e);
+    const components f = components_of(e);
     mps__loop_run(e->parallel, &begin_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &join_rows, MPS__ANY_DIM, e->n, &f);
     mps__loop_run(e->parallel, &raise_rows, MPS__ANY_DIM, e->n, &f);
@@ -160,7 +160,7 @@ static mps_status list_parts(mps__ppe *e, const int64_t *id)
 /* Join parts of different ranks. Labels are ids, which doubles represent exactly. */
 static mps_status join_border(mps__ppe *e, double *label)
 {
-    if (e->ranks.share(e->ranks.host, label)) return mps__ranks_status(e->ghosts->ranks);
+    if (e->ranks.halo(e->ranks.host, label)) return mps__ranks_status(e->ghosts->ranks);
     for (int64_t r = 0; r < e->n; r++)
         for (int64_t k = e->row[r]; k < e->row[r + 1]; k++)
             if (e->col[k] >= e->n)
@@ -194,11 +194,11 @@ static int32_t balance(mps__ppe *e, const double *label)
 
 void mps__levels_look(mps__ppe *e)
 {
-    const forest f = grow_forest(e);
+    const components f = find_components(e);
     e->level_free = false;
     if (e->device) {
-        mps__values_gather(e->device, &lacking_rows, MPS__ANY_DIM, e->n, &f,
-                           &e->counts_there->lacking);
+        mps__values_reduce_async(e->device, &lacking_rows, MPS__ANY_DIM, e->n, &f,
+                                 &e->counts_device->lacking);
         return;
     }
     double lacking = mps__first_run(e->parallel, &lacking_rows, e->n, &f) < e->n;
@@ -211,16 +211,16 @@ void mps__levels_look(mps__ppe *e)
 static mps_status spread_levels(mps__ppe *e, double *lacking)
 {
     mps__ranks *ranks = e->ghosts->ranks;
-    forest f = forest_of(e);
+    components f = components_of(e);
     double any = 1;
-    f.told = mps__device_fit(e->device, &e->there[MPS__PPE_LABELS],
-                             (size_t)e->columns * sizeof *f.told);
-    if (!f.told) return MPS_E_NOMEM;
+    f.datum_of = mps__device_fit(e->device, &e->on_device[MPS__PPE_LABELS],
+                                 (size_t)e->columns * sizeof *f.datum_of);
+    if (!f.datum_of) return MPS_E_NOMEM;
     while (*lacking > -INFINITY && any > 0) {
-        mps__loop_run(e->parallel, &tell_rows, MPS__ANY_DIM, e->n, &f);
-        if (e->ranks.share(e->ranks.host, f.told)) return mps__ranks_status(ranks);
+        mps__loop_run(e->parallel, &send_rows, MPS__ANY_DIM, e->n, &f);
+        if (e->ranks.halo(e->ranks.host, f.datum_of)) return mps__ranks_status(ranks);
         double found[2] = {0, -INFINITY};
-        mps__values_run(e->parallel, &hear_rows, MPS__ANY_DIM, e->n, &f, NULL, &found[0]);
+        mps__values_run(e->parallel, &receive_rows, MPS__ANY_DIM, e->n, &f, NULL, &found[0]);
         mps__values_run(e->parallel, &lacking_rows, MPS__ANY_DIM, e->n, &f, NULL, &found[1]);
         mps__ranks_max(ranks, 2, found);
         any = found[0];
@@ -233,7 +233,7 @@ mps_status mps__levels_wait(mps__ppe *e)
 {
     double lacking = -INFINITY;
     if (e->n > 0)
-        mps__device_download(e->device, &lacking, &e->counts_there->lacking, sizeof lacking);
+        mps__device_download(e->device, &lacking, &e->counts_device->lacking, sizeof lacking);
     if (e->ranks.ranks > 1) {
         mps__ranks_max(e->ghosts->ranks, 1, &lacking);
         MPS__TRY(spread_levels(e, &lacking));

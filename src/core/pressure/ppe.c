@@ -66,7 +66,7 @@ static inline double pair_factor(const assembly *a, int64_t i, int64_t j)
 {
     if (a->unknown[j] < 0 && a->condition[j] != MPS_ROW_FIXED) return 0.0;
     if (a->kind[i] == MPS_WALL && a->kind[j] == MPS_WALL)
-        return mps_flux_wall_share(&a->flux, i, j);
+        return mps_flux_wall_fraction(&a->flux, i, j);
     return a->region[j] == MPS_REGION_SURFACE ? a->surface : 1.0;
 }
 
@@ -79,21 +79,21 @@ static inline bool is_unknown(const assembly *a, int64_t i)
 /* A workspace block in the memory space of the equation. */
 static void *take(mps__ppe *e, int32_t block, int64_t count, size_t size)
 {
-    return e->device ? mps__device_fit(e->device, &e->there[block], (size_t)count * size)
+    return e->device ? mps__device_fit(e->device, &e->on_device[block], (size_t)count * size)
                      : mps__scratch_take(e->context, e->scratch, block, count, size);
 }
 
-static double *carve(char **room, int64_t count)
+static double *carve(char **buffer, int64_t count)
 {
-    double *array = (double *)(void *)*room;
-    *room += (size_t)count * sizeof *array;
+    double *array = (double *)(void *)*buffer;
+    *buffer += (size_t)count * sizeof *array;
     return array;
 }
 
-static int32_t *carve_numbers(char **room, int64_t count)
+static int32_t *carve_numbers(char **buffer, int64_t count)
 {
-    int32_t *array = (int32_t *)(void *)*room;
-    *room += (size_t)count * sizeof *array;
+    int32_t *array = (int32_t *)(void *)*buffer;
+    *buffer += (size_t)count * sizeof *array;
     return array;
 }
 
@@ -102,24 +102,24 @@ static int32_t *carve_numbers(char **room, int64_t count)
 mps_status mps__ppe_reserve_rows(mps__ppe *e, int32_t dim)
 {
     const bool spared = e->spare && !e->device;
-    const int64_t n = e->n, all = e->columns, starts = 1 + mps__scan_room(n),
+    const int64_t n = e->n, all = e->columns, starts = 1 + mps__scan_size(n),
                   late = spared ? 0 : 2 * n + (1 + dim) * all;
-    char *room = take(e, MPS__PPE_ROWS, 2 * (3 * n + starts + late) + 2 * all + e->particles,
-                      sizeof(int32_t));
-    if (!room) return MPS_E_NOMEM;
-    e->diagonal = carve(&room, n);
-    e->rhs = carve(&room, n);
-    e->shift = carve(&room, n);
-    e->row = (int64_t *)(void *)carve(&room, starts);
-    e->x = spared ? e->spare_x : carve(&room, all * dim);
-    char *spare = spared ? (char *)e->spare : (char *)carve(&room, 2 * n + all);
+    char *buffer = take(e, MPS__PPE_ROWS, 2 * (3 * n + starts + late) + 2 * all + e->particles,
+                        sizeof(int32_t));
+    if (!buffer) return MPS_E_NOMEM;
+    e->diagonal = carve(&buffer, n);
+    e->rhs = carve(&buffer, n);
+    e->shift = carve(&buffer, n);
+    e->row = (int64_t *)(void *)carve(&buffer, starts);
+    e->x = spared ? e->spare_x : carve(&buffer, all * dim);
+    char *spare = spared ? (char *)e->spare : (char *)carve(&buffer, 2 * n + all);
     e->weight = carve(&spare, n);
     e->p = carve(&spare, all);
     e->component = carve_numbers(&spare, n);
     e->queue = carve_numbers(&spare, n);
-    e->particle = carve_numbers(&room, all);
-    e->order = carve_numbers(&room, all);
-    e->unknown = carve_numbers(&room, e->particles);
+    e->particle = carve_numbers(&buffer, all);
+    e->order = carve_numbers(&buffer, all);
+    e->unknown = carve_numbers(&buffer, e->particles);
     return MPS_OK;
 }
 
@@ -191,11 +191,11 @@ MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
 MPS__LOOP_ANY(count_rows, count_row, assembly)
 
 /* Unknowns, row starts and number of entries, on the host. */
-static mps_status count_here(mps__ppe *e, const mps_view *s, assembly *a)
+static mps_status count_on_rank(mps__ppe *e, const mps_view *s, assembly *a)
 {
     const mps_parallel *parallel = e->parallel;
     numbering f = {.terms = *a};
-    f.number = take(e, MPS__PPE_VALUES, mps__scan_room(s->n), sizeof *f.number);
+    f.number = take(e, MPS__PPE_VALUES, mps__scan_size(s->n), sizeof *f.number);
     if (!f.number) return MPS_E_NOMEM;
     mps__loop_run(parallel, &mark_rows, MPS__ANY_DIM, s->n, &f);
     mps__scan(parallel, f.number, s->n);
@@ -232,13 +232,13 @@ typedef struct counting {
     mps__ppe_counts *found;
 } counting;
 
-MPS_ROW void tell_row(const int dim, const counting *f, int64_t i)
+MPS_ROW void write_row(const int dim, const counting *f, int64_t i)
 {
     (void)dim, (void)i;
     f->found->unknowns = f->number[f->particles - 1];
     f->found->entries = f->row[f->particles];
 }
-MPS__LOOP_ANY(tell_rows, tell_row, counting)
+MPS__LOOP_ANY(write_rows, write_row, counting)
 
 /* Copy to the arrays of the rows. */
 MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
@@ -253,9 +253,9 @@ MPS__LOOP_ANY(settle_rows, settle_row, counting)
 /* Allocate for as many rows as there are particles. */
 static mps_status reserve_counting(mps__ppe *e, numbering *f, assembly *a, counting *c)
 {
-    const int64_t n = e->particles, sums = mps__scan_room(n);
+    const int64_t n = e->particles, sums = mps__scan_size(n);
     f->number = take(e, MPS__PPE_VALUES, 2 * sums + 1 + n, sizeof *f->number);
-    e->counts_there = c->found = take(e, MPS__PPE_COUNTS, 1, sizeof *c->found);
+    e->counts_device = c->found = take(e, MPS__PPE_COUNTS, 1, sizeof *c->found);
     if (!f->number || !c->found) return MPS_E_NOMEM;
     a->row = f->number + sums;
     f->unknown = (int32_t *)(void *)(a->row + 1 + sums);
@@ -271,7 +271,7 @@ static mps_status reserve_counting(mps__ppe *e, numbering *f, assembly *a, count
     return MPS_OK;
 }
 
-static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
+static mps_status count_device(mps__ppe *e, const mps_view *s, assembly *a)
 {
     const mps_parallel *parallel = e->parallel;
     numbering f = {.terms = *a};
@@ -284,9 +284,9 @@ static mps_status count_there(mps__ppe *e, const mps_view *s, assembly *a)
     mps__loop_run(parallel, &number_rows, MPS__ANY_DIM, s->n, &f);
     mps__loop_run(parallel, &count_rows, s->dim, s->n, a);
     mps__scan(parallel, a->row + 1, s->n);
-    mps__values_gather(e->device, &bounded_rows, MPS__ANY_DIM, s->n, a, &c.found->bounded);
+    mps__values_reduce_async(e->device, &bounded_rows, MPS__ANY_DIM, s->n, a, &c.found->bounded);
     if (s->n > 0) {
-        mps__loop_run(parallel, &tell_rows, MPS__ANY_DIM, 1, &c);
+        mps__loop_run(parallel, &write_rows, MPS__ANY_DIM, 1, &c);
         mps__device_download(e->device, &found, c.found, offsetof(mps__ppe_counts, lacking));
     }
     MPS__TRY(mps__device_status(e->device));
@@ -407,7 +407,7 @@ static void see_rows(assembly *a, const mps__ppe *e)
     a->row_shift = e->shift;
     a->row_gas = e->gas;
     a->row_law = e->law;
-    a->moments = e->moments && e->device ? e->there[MPS__PPE_MOMENTS].data : e->moments;
+    a->moments = e->moments && e->device ? e->on_device[MPS__PPE_MOMENTS].data : e->moments;
 }
 
 /* Allocate the optional arrays. */
@@ -426,7 +426,7 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
     e->device = mps__device_of(e->parallel);
     e->particles = s->n;
     assembly a = assembly_of(e, s, t);
-    MPS__TRY(e->device ? count_there(e, s, &a) : count_here(e, s, &a));
+    MPS__TRY(e->device ? count_device(e, s, &a) : count_on_rank(e, s, &a));
     MPS__TRY(reserve_extras(e, s, &a, t->linear));
     MPS__TRY(mps__ppe_reserve_entries(e));
     see_rows(&a, e);

@@ -47,15 +47,15 @@ typedef struct mps__ppe_counts {
 } mps__ppe_counts;
 
 /* The equation is assembled in the memory space of the loops. On a device all of its arrays are
- * there, until mps__ppe_come() copies it to the host. */
+ * there, until mps__ppe_to_host() copies it to the host. */
 typedef struct mps__ppe {
     mps__context *context;
     mps__device *device; /* that has the arrays; NULL: the host */
-    mps__device_block there[MPS__PPE_BLOCKS];
-    /* after mps__ppe_come(): the device, with its rows of the particles and pressures */
+    mps__device_block on_device[MPS__PPE_BLOCKS];
+    /* after mps__ppe_to_host(): the device, with its rows of the particles and pressures */
     mps__device *left;
-    int32_t *unknown_there;
-    double *p_there;
+    int32_t *unknown_device;
+    double *p_device;
     const mps_parallel *parallel; /* of the assembly loops */
     /* memory of all arrays: own, or shared with others; valid until its next use */
     mps__scratch own, *scratch;
@@ -70,7 +70,7 @@ typedef struct mps__ppe {
     int64_t entries; /* of the matrix */
     int64_t particles;
     /* on a device: its counts, and whether a row has a lower bound */
-    mps__ppe_counts *counts_there;
+    mps__ppe_counts *counts_device;
     bool bounded;
     int32_t *unknown;  /* [particles] row of a particle, or column of a ghost; -1: none */
     int32_t *particle; /* [columns] particle of a row or a column */
@@ -124,11 +124,11 @@ void mps__ppe_scatter(const mps__ppe *e, const mps_view *s, const mps__ppe_terms
 /* ---- an equation on a device (ppe_device.c) ---- */
 
 /* Copy all arrays to the host, where they are valid from now on; */
-mps_status mps__ppe_come(mps__ppe *e);
+mps_status mps__ppe_to_host(mps__ppe *e);
 /* copy the pressures back to the device. */
-mps_status mps__ppe_go(mps__ppe *e);
+mps_status mps__ppe_to_device(mps__ppe *e);
 /* Release the device memory; before the device is detached. */
-void mps__ppe_leave(mps__ppe *e, mps__device *d);
+void mps__ppe_release_device(mps__ppe *e, mps__device *d);
 
 /* ---- shared by ppe.c and ppe_device.c ---- */
 

@@ -3,12 +3,12 @@
 #include "ppe.h"
 #include "loop.h"
 
-static int share_columns(void *host, double *x)
+static int exchange_columns(void *host, double *x)
 {
     const mps__ppe *e = host;
-    const mps_status status = mps__ghosts_share_indexed(e->ghosts, e->device, e->unknown, x);
+    const mps_status status = mps__ghosts_exchange_indexed(e->ghosts, e->device, e->unknown, x);
     /* inform the other ranks at once: the next calls of this rank differ from theirs */
-    mps__ranks_tell(e->ghosts->ranks, status);
+    mps__ranks_report(e->ghosts->ranks, status);
     return status < 0;
 }
 
@@ -20,7 +20,7 @@ static int reduce_values(void *host, int32_t count, size_t bytes, void *values,
     return r->failed;
 }
 
-static int gather_blocks(void *host, const void *own, const int64_t *bytes, void *all)
+static int collect_blocks(void *host, const void *own, const int64_t *bytes, void *all)
 {
     mps__ranks *r = ((const mps__ppe *)host)->ghosts->ranks;
     mps__ranks_gather(r, own, bytes, all);
@@ -112,9 +112,9 @@ mps_status mps__ppe_ranks_set(mps__ppe *e)
                                .ghosts = e->columns - e->n,
                                .order = e->order,
                                .owner = find_owners,
-                               .share = share_columns,
+                               .halo = exchange_columns,
                                .reduce = reduce_values,
-                               .gather = gather_blocks,
+                               .gather = collect_blocks,
                                .connect = connect_ranks,
                                .disconnect = disconnect_ranks,
                                .exchange = exchange_elements,

@@ -43,8 +43,8 @@ static mps_status check_new_name(mps__context *c, const char *what, char (*names
                MPS__NAME_SIZE - 1);
     MPS__CHECK(c, find(names, count, name) < 0, "a %s called '%s' is registered already", what,
                name);
-    MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "no room for %s '%s': all %d places are taken", what,
-               name, MPS__SOLVERS_KNOWN);
+    MPS__CHECK(c, count < MPS__SOLVERS_KNOWN, "cannot register %s '%s': all %d places are taken",
+               what, name, MPS__SOLVERS_KNOWN);
     return MPS_OK;
 }
 
@@ -320,8 +320,8 @@ mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, d
 }
 
 /* Error or warning text of a solution. */
-static mps_status tell(const mps__solvers *s, const mps_ppe_problem *problem,
-                       const mps_ppe_result *result, mps_status status)
+static mps_status report(const mps__solvers *s, const mps_ppe_problem *problem,
+                         const mps_ppe_result *result, mps_status status)
 {
     return mps__fail(s->context, status,
                      "solver '%s' with preconditioner '%s' %s: %d iterations of at most %d, "
@@ -345,14 +345,14 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
     limited.max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){.struct_size = sizeof *result};
     if ((problem->ranks ? problem->ranks->rows : problem->n) == 0) return MPS_OK;
-    if (mps__solvers_there(s, &limited))
-        MPS__TRY(mps__solvers_solve_there(s, &limited, p, result));
+    if (mps__solvers_on_device(s, &limited))
+        MPS__TRY(mps__solvers_solve_device(s, &limited, p, result));
     else
         mps__solvers_run(s, &limited, p, result);
     if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
     /* before the reduction over all ranks: they are in another call */
-    if (result->reason == MPS_PPE_NOMEM) return tell(s, &limited, result, status);
+    if (result->reason == MPS_PPE_NOMEM) return report(s, &limited, result, status);
     /* a finite residual implies finite pressures */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
                                                       : !mps__finite(p, problem->n);
@@ -365,7 +365,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         status = verify(s, &limited, p, result);
         if (status != MPS_W_NOT_CONVERGED) return status;
     }
-    return tell(s, &limited, result, status);
+    return report(s, &limited, result, status);
 }
 
 /* ---- for plug-ins ---- */
@@ -471,7 +471,7 @@ mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double
                         .law = laws ? problem->law : NULL,
                         .p = p,
                         .r = work};
-    if (mps_ppe_share(problem, (double *)p)) return MPS_E_RANKS;
+    if (mps_ppe_halo(problem, (double *)p)) return MPS_E_RANKS;
     mps__values_run(problem->parallel, &check_rows, problem->dim, problem->n, &seen, sums, maxima);
     if (mps_ppe_total(problem, &values)) return MPS_E_RANKS;
     const double squares = mps_exact_value(&sums[SQUARES]),

@@ -32,7 +32,7 @@ typedef struct mps__solvers {
     bool ready; /* the preconditioner is set up for the present series */
     /* of the step in progress; NULL: none. Used for solutions with device loops */
     mps__device *device;
-    mps__device_block room; /* for equations copied to the device */
+    mps__device_block buffer; /* for equations copied to the device */
     /* it contains the arrays that all solutions of the present series share */
     bool sent;
     mps__pcg_hint hint; /* for solutions on the device */
@@ -67,13 +67,13 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
 
 /* Whether solver and preconditioner have device loops; whether this equation is solved on the
  * device. */
-bool mps__solvers_known_there(const mps__solvers *s);
-bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *problem);
+bool mps__solvers_known_device(const mps__solvers *s);
+bool mps__solvers_on_device(const mps__solvers *s, const mps_ppe_problem *problem);
 /* Solve on the device. The arrays and `p` are in the memory space of the problem's parallel-for:
  * host or device. MPS_E_NOMEM, MPS_E_PLUGIN */
-mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *problem, double *p,
-                                    mps_ppe_result *result);
+mps_status mps__solvers_solve_device(mps__solvers *s, const mps_ppe_problem *problem, double *p,
+                                     mps_ppe_result *result);
 /* Release the device memory; before the device is detached. */
-void mps__solvers_leave(mps__solvers *s, mps__device *d);
+void mps__solvers_release_device(mps__solvers *s, mps__device *d);
 
 #endif

@@ -23,22 +23,22 @@ static bool is_auxgrid(const mps_preconditioner_ops *pc)
     return pc->create == mps__preconditioner_auxgrid.create;
 }
 
-bool mps__solvers_known_there(const mps__solvers *s)
+bool mps__solvers_known_device(const mps__solvers *s)
 {
     return s->use->create == mps__solver_pcg.create &&
            (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
 }
 
-bool mps__solvers_there(const mps__solvers *s, const mps_ppe_problem *e)
+bool mps__solvers_on_device(const mps__solvers *s, const mps_ppe_problem *e)
 {
     /* the halo exchange is in the memory space of the equation */
-    const bool known = mps__solvers_known_there(s) && (!e->ranks || mps__device_of(e->parallel));
+    const bool known = mps__solvers_known_device(s) && (!e->ranks || mps__device_of(e->parallel));
     return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 
 /* @param there  out: the equation with device arrays @param q  out: the pressures on the device */
 static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *p,
-                       mps_ppe_problem *there, double **q)
+                       mps_ppe_problem *on_device, double **q)
 {
     const size_t n = (size_t)e->n, entries = (size_t)e->row[e->n], numbers = n * sizeof(double);
     const array arrays[ARRAYS] = {
@@ -55,51 +55,51 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
     size_t begin[ARRAYS + 1] = {0};
     for (int k = 0; k < ARRAYS; k++)
         begin[k + 1] = begin[k] + ((arrays[k].bytes + 255) & ~(size_t)255);
-    const bool sent = s->sent && begin[ARRAYS] <= s->room.bytes;
+    const bool sent = s->sent && begin[ARRAYS] <= s->buffer.bytes;
     s->sent = false;
-    char *room = mps__device_fit(s->device, &s->room, begin[ARRAYS]);
-    if (!room) return MPS_E_NOMEM;
+    char *buffer = mps__device_fit(s->device, &s->buffer, begin[ARRAYS]);
+    if (!buffer) return MPS_E_NOMEM;
     for (int k = 0; k < ARRAYS; k++)
         if (!(sent && arrays[k].constant))
-            mps__device_upload(s->device, room + begin[k], arrays[k].from, arrays[k].bytes);
+            mps__device_upload(s->device, buffer + begin[k], arrays[k].from, arrays[k].bytes);
     s->sent = true;
-    *there = *e;
-    there->row = (const int64_t *)(void *)(room + begin[ROW]);
-    there->col = (const int32_t *)(void *)(room + begin[COL]);
-    there->val = (const float *)(void *)(room + begin[VAL]);
-    there->diagonal = (const double *)(void *)(room + begin[DIAGONAL]);
-    there->rhs = (const double *)(void *)(room + begin[RHS]);
-    if (e->weight) there->weight = (const double *)(void *)(room + begin[WEIGHT]);
-    there->x = (const double *)(void *)(room + begin[POSITION]);
-    there->shift = (const double *)(void *)(room + begin[SHIFT]);
-    there->parallel = &s->device->parallel;
-    *q = (double *)(void *)(room + begin[PRESSURE]);
+    *on_device = *e;
+    on_device->row = (const int64_t *)(void *)(buffer + begin[ROW]);
+    on_device->col = (const int32_t *)(void *)(buffer + begin[COL]);
+    on_device->val = (const float *)(void *)(buffer + begin[VAL]);
+    on_device->diagonal = (const double *)(void *)(buffer + begin[DIAGONAL]);
+    on_device->rhs = (const double *)(void *)(buffer + begin[RHS]);
+    if (e->weight) on_device->weight = (const double *)(void *)(buffer + begin[WEIGHT]);
+    on_device->x = (const double *)(void *)(buffer + begin[POSITION]);
+    on_device->shift = (const double *)(void *)(buffer + begin[SHIFT]);
+    on_device->parallel = &s->device->parallel;
+    *q = (double *)(void *)(buffer + begin[PRESSURE]);
     return MPS_OK;
 }
 
-mps_status mps__solvers_solve_there(mps__solvers *s, const mps_ppe_problem *e, double *p,
-                                    mps_ppe_result *result)
+mps_status mps__solvers_solve_device(mps__solvers *s, const mps_ppe_problem *e, double *p,
+                                     mps_ppe_result *result)
 {
-    mps_ppe_problem there;
+    mps_ppe_problem on_device;
     double *q;
     mps__pcg_expect(s->use_self, &s->hint);
     if (mps__device_of(e->parallel)) {
         mps__solvers_run(s, e, p, result);
         return mps__device_status(s->device);
     }
-    MPS__TRY(send(s, e, p, &there, &q));
-    mps__solvers_run(s, &there, q, result);
+    MPS__TRY(send(s, e, p, &on_device, &q));
+    mps__solvers_run(s, &on_device, q, result);
     mps__device_download(s->device, p, q, (size_t)e->n * sizeof *p);
     return mps__device_status(s->device);
 }
 
-void mps__solvers_leave(mps__solvers *s, mps__device *d)
+void mps__solvers_release_device(mps__solvers *s, mps__device *d)
 {
-    if (s->use && s->use->create == mps__solver_pcg.create) mps__pcg_leave(s->use_self);
-    if (s->pc && is_jacobi(s->pc)) mps__jacobi_leave(s->pc_self);
-    if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_leave(s->pc_self);
-    if (s->spare_self) mps__jacobi_leave(s->spare_self);
-    mps__device_leave(d, &s->room);
+    if (s->use && s->use->create == mps__solver_pcg.create) mps__pcg_release_device(s->use_self);
+    if (s->pc && is_jacobi(s->pc)) mps__jacobi_release_device(s->pc_self);
+    if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_release_device(s->pc_self);
+    if (s->spare_self) mps__jacobi_release_device(s->spare_self);
+    mps__device_release(d, &s->buffer);
     s->sent = false;
     s->device = NULL;
 }

@@ -31,14 +31,15 @@ static void sum_terms(const mps__world *w, const mps_sums *add, terms *f, int32_
 {
     mps_view v;
     complete(w, &v, f);
-    mps__host_sum(&w->host, &v, count, add, f, values);
+    mps__runner_sum(&w->runner, &v, count, add, f, values);
 }
 
-static void sum_later(mps__world *w, const mps_sums *add, terms *f, int32_t count, mps__then then)
+static void sum_deferred(mps__world *w, const mps_sums *add, terms *f, int32_t count,
+                         mps__then then)
 {
     mps_view v;
     complete(w, &v, f);
-    mps__host_sum_later(&w->host, &v, count, add, f, then);
+    mps__runner_sum_deferred(&w->runner, &v, count, add, f, then);
 }
 
 /* Kinetic energy and momentum. */
@@ -67,9 +68,9 @@ void mps__budget_sum(const mps__world *w, mps__bulk *bulk)
     mps__budget_take(w, s, bulk);
 }
 
-void mps__budget_later(mps__world *w, mps__then then)
+void mps__budget_deferred(mps__world *w, mps__then then)
 {
-    sum_later(w, &add_energies, &(terms){0}, 2 + w->setup.dim, then);
+    sum_deferred(w, &add_energies, &(terms){0}, 2 + w->setup.dim, then);
 }
 
 void mps__budget_take(const mps__world *w, const double *sums, mps__bulk *bulk)
@@ -85,9 +86,9 @@ void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk)
     mps__budget_take_flow(w, s, bulk);
 }
 
-void mps__budget_flow_later(mps__world *w, mps__then then)
+void mps__budget_flow_deferred(mps__world *w, mps__then then)
 {
-    sum_later(w, &add_flows, &(terms){0}, 1 + w->setup.dim, then);
+    sum_deferred(w, &add_flows, &(terms){0}, 1 + w->setup.dim, then);
 }
 
 void mps__budget_take_flow(const mps__world *w, const double *sums, mps__bulk *bulk)
@@ -113,9 +114,9 @@ void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push
     mps__budget_take_push(w, s, push);
 }
 
-void mps__budget_push_later(mps__world *w, const double *a, double dt, mps__then then)
+void mps__budget_push_deferred(mps__world *w, const double *a, double dt, mps__then then)
 {
-    sum_later(w, &add_pushes, &(terms){.data = a, .dt = dt}, 2 + w->setup.dim, then);
+    sum_deferred(w, &add_pushes, &(terms){.data = a, .dt = dt}, 2 + w->setup.dim, then);
 }
 
 void mps__budget_take_push(const mps__world *w, const double *sums, mps__push *push)
@@ -185,7 +186,7 @@ void mps__budget_wall_work(mps__world *w, const mps__pose *end, const double *a,
 {
     terms k = mean_move(w, end, dt);
     k.data = a;
-    sum_later(w, &add_works, &k, 1, then);
+    sum_deferred(w, &add_works, &k, 1, then);
 }
 
 double mps__budget_tank_work(const mps__world *w, const mps__pose *end, const double force[6],
@@ -214,7 +215,7 @@ void mps__budget_wall_force(mps__world *w, const mps__pose *end, const double *p
 {
     terms k = mean_move(w, end, dt);
     k.data = pressure;
-    sum_later(w, &add_walls, &k, 1 + w->setup.dim, then);
+    sum_deferred(w, &add_walls, &k, 1 + w->setup.dim, then);
 }
 
 typedef struct body_fields {
@@ -239,7 +240,7 @@ double mps__budget_body_work(const mps__world *w, const double *pressure, const 
     mps_view v;
     if (!w->work.bodies) return 0;
     mps__world_view(w, &v);
-    mps__host_sum(&w->host, &v, 1, &add_body_works, &f, &work);
+    mps__runner_sum(&w->runner, &v, 1, &add_body_works, &f, &work);
     return work;
 }
 
@@ -251,7 +252,7 @@ MPS_SUMS(add_lifts, add_lift, terms)
 
 void mps__budget_lift(mps__world *w, const double *dx, mps__then then)
 {
-    sum_later(w, &add_lifts, &(terms){.data = dx}, 1, then);
+    sum_deferred(w, &add_lifts, &(terms){.data = dx}, 1, then);
 }
 
 void mps__budget_book_added(const mps__world *w, mps__budget *b)
@@ -299,5 +300,5 @@ MPS_SUMS(add_deviations, add_deviation, terms)
 
 void mps__budget_deviation(mps__world *w, const double *deviation, mps__then then)
 {
-    sum_later(w, &add_deviations, &(terms){.data = deviation}, 2, then);
+    sum_deferred(w, &add_deviations, &(terms){.data = deviation}, 2, then);
 }

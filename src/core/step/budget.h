@@ -15,16 +15,16 @@ typedef struct mps__push {
 
 void mps__budget_sum(const mps__world *w, mps__bulk *bulk);
 /* Deferred mps__budget_sum(): `then` gets the sums for mps__budget_take(). */
-void mps__budget_later(mps__world *w, mps__then then);
+void mps__budget_deferred(mps__world *w, mps__then then);
 void mps__budget_take(const mps__world *w, const double *sums, mps__bulk *bulk);
 /* Sums that depend on velocities: all but the potential energy, which is set to 0. */
 void mps__budget_sum_flow(const mps__world *w, mps__bulk *bulk);
 void mps__budget_push(const mps__world *w, const double *a, double dt, mps__push *push);
 /* Deferred versions; `then` gets the sums for mps__budget_take_flow() and
  * mps__budget_take_push(). */
-void mps__budget_flow_later(mps__world *w, mps__then then);
+void mps__budget_flow_deferred(mps__world *w, mps__then then);
 void mps__budget_take_flow(const mps__world *w, const double *sums, mps__bulk *bulk);
-void mps__budget_push_later(mps__world *w, const double *a, double dt, mps__then then);
+void mps__budget_push_deferred(mps__world *w, const double *a, double dt, mps__then then);
 void mps__budget_take_push(const mps__world *w, const double *sums, mps__push *push);
 /* Work of the rigid tank on the fluid over a step in which pressure gives it accelerations `a`,
  * from the change of its momentum and moment of momentum: F.v + T.omega holds for any distribution

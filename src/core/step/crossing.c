@@ -118,7 +118,8 @@ static void ask_speeds(mps_stage *s, double least)
                 .carry = mps__motion_carry(&w->motion, &q->pose)};
     for (int p = 0; p < MPS__PHASES; p++)
         if (w->setup.phase_defined[p]) f.dense = fmax(f.dense, 0.5 * w->setup.phase_density[p]);
-    mps__host_max_later(&w->host, s->view, SPEEDS, &raise_speeds, &f, (mps__then){take_speeds, q});
+    mps__runner_max_deferred(&w->runner, s->view, SPEEDS, &raise_speeds, &f,
+                             (mps__then){take_speeds, q});
 }
 
 /* If there is no piece nearly as fast as the previous one, search all particles above 5 U_g. */
@@ -127,7 +128,7 @@ void mps__step_crossing_end(mps_stage *s)
     mps__step *q = mps__step_of(s);
     if (q->nearly && q->speeds[PIECE] < 0) {
         ask_speeds(s, 5 * q->w->setup.velocity_scale);
-        mps__host_settle(&q->w->host);
+        mps__runner_flush(&q->w->runner);
     }
     q->info.crossing_time = crossing_time(q->w, sqrt(fmax(0, q->speeds[ANY])),
                                           sqrt(fmax(0, q->speeds[PIECE])), s->view->dt);

@@ -23,14 +23,14 @@ static void lower(limit *l, limit other)
 static mps_status limit_by_models(mps__world *w, mps_stage *s, mps_view *v, limit *l)
 {
     s->dt_limit = INFINITY;
-    MPS__TRY(mps__host_run(&w->host, s, v, MPS_LIMIT));
+    MPS__TRY(mps__runner_run(&w->runner, s, v, MPS_LIMIT));
     double own = s->dt_limit, least = -own, call = -1;
     mps__ranks_max(&w->ranks, 1, &least);
     s->dt_limit = -least;
     if (!(s->dt_limit < l->dt)) return MPS_OK;
-    if (own == s->dt_limit) call = w->host.limiter;
+    if (own == s->dt_limit) call = w->runner.limiter;
     mps__ranks_max(&w->ranks, 1, &call);
-    const char *name = call < 0 ? "model" : w->host.plan.call[(int)call].name;
+    const char *name = call < 0 ? "model" : w->runner.plan.call[(int)call].name;
     lower(l, (limit){s->dt_limit, name, "the model allows", "s", s->dt_limit});
     return MPS_OK;
 }
@@ -73,7 +73,7 @@ static mps_status follow_walls(mps__world *w, double longest, limit *l)
         MPS__TRY(mps__motion_pose(&w->motion, w->state.t + trial / 2, &half));
         mps__world_way_of_walls(w, &whole, trial, &of_whole);
         mps__world_way_of_walls(w, &half, trial / 2, &of_half);
-        mps__host_settle(&w->host);
+        mps__runner_flush(&w->runner);
         const double way = fmax(of_whole, 2 * of_half);
         if (way <= allowed * (1 + 1e-9)) return MPS_OK;
         const double speed = way / trial;
@@ -110,8 +110,8 @@ static mps_status choose(mps__world *w, mps_stage *s, mps_view *v, double longes
 static void check_fixed(mps__world *w, double dt)
 {
     const double known = resolving(w, dt);
-    if (w->motion.told || !(known < dt)) return;
-    w->motion.told = true;
+    if (w->motion.logged || !(known < dt)) return;
+    w->motion.logged = true;
     mps__log(w->context, MPS_LOG_WARNING,
              "t = %.9g s: a fixed step of %g s misses parts of the tank's motion; it changes "
              "within %g s: take steps of at most that",

@@ -53,7 +53,7 @@ static int64_t place_of(mps__world *w, int64_t id)
 /* Positions before this step moved the particles, on the host. */
 static const double *places_before(mps__world *w)
 {
-    mps__twins_ready(&w->host.twins, MPS__POSITION_BEFORE, MPS__ON_HOST);
+    mps__memory_sync(&w->runner.memory, MPS__POSITION_BEFORE, MPS__ON_HOST);
     return mps__channels_array(&w->channels, &w->particles, MPS__POSITION_BEFORE);
 }
 
@@ -61,7 +61,7 @@ static mps_status jumped(mps__world *w, const mps_view *v, const ways *f, int64_
 {
     const int64_t i = place_of(w, id);
     if (i < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
-    mps__twins_fields_ready(&w->host.twins);
+    mps__memory_sync_fields(&w->runner.memory);
     const ways here = {.before = places_before(w), .x = w->particles.x};
     const double *x = here.before + i * v->dim, distance = moved(v->dim, v, &here, i);
     mps__fail(
@@ -107,7 +107,7 @@ mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const do
     mps_view v;
     if (!mps__world_may_jump(w)) return MPS_OK;
     view_of(w, next, &v);
-    mps__host_max(&w->host, &v, 3, &raise_ways, &f, most);
+    mps__runner_max(&w->runner, &v, 3, &raise_ways, &f, most);
     if (most[0] > 0 && !isinf(most[2])) return jumped(w, &v, &f, (int64_t)-most[2]);
     if (w->setup.control.dt > 0 && most[1] > w->setup.dp && !w->state.moves_told) {
         w->state.moves_told = true;
@@ -150,7 +150,7 @@ static void take_way(void *way, const double *most)
 
 void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way)
 {
-    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    mps__memory_set_space(&w->runner.memory, MPS__ON_DEVICE);
     const ways f = {.ref = mps__seen(w, MPS__FIELD_REF),
                     .u = mps__seen(w, MPS__FIELD_VELOCITY),
                     .dt = dt,
@@ -158,8 +158,8 @@ void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, do
     mps_view v;
     view_of(w, pose, &v);
     *way = 0; /* if a device fails */
-    mps__host_max_later(&w->host, &v, 1, &raise_wall_ways, &f, (mps__then){take_way, way});
-    mps__twins_go(&w->host.twins, MPS__ON_HOST);
+    mps__runner_max_deferred(&w->runner, &v, 1, &raise_wall_ways, &f, (mps__then){take_way, way});
+    mps__memory_set_space(&w->runner.memory, MPS__ON_HOST);
 }
 
 mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
@@ -213,7 +213,7 @@ void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *po
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX),
                       .carry = mps__motion_carry(&w->motion, pose)};
     *v = (mps__outcome){0, -INFINITY}; /* if a device fails */
-    mps__host_max_later(&w->host, s, 2, &raise_results, &f, (mps__then){take_result, v});
+    mps__runner_max_deferred(&w->runner, s, 2, &raise_results, &f, (mps__then){take_result, v});
 }
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its position. */
@@ -226,7 +226,7 @@ mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_mo
     if (isinf(v->failed)) return MPS_OK;
     const int64_t worst = place_of(w, (int64_t)-v->failed);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);
-    mps__twins_fields_ready(&w->host.twins);
+    mps__memory_sync_fields(&w->runner.memory);
     const double *u = all->u + worst * s->dim,
                  *x = (has_moved ? places_before(w) : all->x) + worst * s->dim;
     mps__fail(w->context, MPS_E_DIVERGED,

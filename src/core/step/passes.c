@@ -19,7 +19,7 @@ const mps__pass *const mps__step_passes[] = {
     &mps__pass_push, &mps__pass_book_pressure,
     /* MPS_VELOCITY, MPS_SHIFT */
     &mps__pass_book_collisions, &mps__pass_book_reactions, &mps__pass_clear_displacement,
-    &mps__pass_book_shift, &mps__pass_move, &mps__pass_plates, &mps__pass_check, &mps__pass_share,
-    &mps__pass_crossing, &mps__pass_keep};
+    &mps__pass_book_shift, &mps__pass_move, &mps__pass_plates, &mps__pass_check,
+    &mps__pass_exchange, &mps__pass_crossing, &mps__pass_keep};
 
 const int32_t mps__step_pass_count = sizeof mps__step_passes / sizeof mps__step_passes[0];

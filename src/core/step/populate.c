@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fluid that models add and remove before a step, and its rollback if the step fails. */
 #include "populate.h"
-#include "gather.h"
+#include "collect.h"
 
 #include "step.h"
 #include "world_ranks.h"
@@ -18,7 +18,7 @@ static void open_stage(mps__world *w, mps_stage *s, mps_view *v)
 /* Append the particles that verbs have added. */
 static mps_status let_in(mps__world *w)
 {
-    const mps__host *h = &w->host;
+    const mps__runner *h = &w->runner;
     mps__particles *s = &w->particles;
     const size_t bytes = (size_t)s->dim * sizeof *s->x;
     if (h->entries == 0) return MPS_OK;
@@ -40,7 +40,7 @@ static mps_status let_in(mps__world *w)
 /* Remove marked particles, of those that existed before others were added. */
 static mps_status let_out(mps__world *w, int64_t rows)
 {
-    const mps__host *h = &w->host;
+    const mps__runner *h = &w->runner;
     const mps__particles *s = &w->particles;
     int64_t count = 0;
     MPS__TRY(mps__world_reserve(w));
@@ -56,7 +56,7 @@ static mps_status let_out(mps__world *w, int64_t rows)
 static mps_status apply(mps__world *w)
 {
     const int64_t rows = w->particles.n;
-    bool any[] = {w->host.entries > 0, w->host.leaving};
+    bool any[] = {w->runner.entries > 0, w->runner.leaving};
     mps__world_any(w, 2, any);
     if (any[0]) {
         w->lists.neighbours.valid = false;
@@ -70,17 +70,17 @@ mps_status mps__world_populate(mps__world *w)
 {
     mps_stage s;
     mps_view v;
-    const int32_t *begin = w->host.plan.begin;
+    const int32_t *begin = w->runner.plan.begin;
     w->lists.aside = w->lists.gone = w->lists.lost = 0;
     w->lists.first_new = w->particles.next_id;
     if (begin[MPS_POPULATE] == begin[MPS_POPULATE + 1]) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     open_stage(w, &s, &v);
     mps__particles_written(&w->particles); /* verbs may write fields */
-    w->ahead.holds = false;
-    w->host.entries = 0;
-    w->host.leaving = false;
-    MPS__TRY(mps__host_run(&w->host, &s, &v, MPS_POPULATE));
+    w->next_flags.holds = false;
+    w->runner.entries = 0;
+    w->runner.leaving = false;
+    MPS__TRY(mps__runner_run(&w->runner, &s, &v, MPS_POPULATE));
     return apply(w);
 }
 
@@ -108,7 +108,7 @@ void mps__world_depopulate(mps__world *w)
 
 /* ---- functions for verbs ---- */
 
-static int not_here(mps_stage *s, const char *call)
+static int refuse_hook(mps_stage *s, const char *call)
 {
     return mps_stage_fail(s, "%s() was called in hook '%s': call it in 'populate'", call,
                           mps__hook_name(s->hook));
@@ -116,9 +116,9 @@ static int not_here(mps_stage *s, const char *call)
 
 int mps_stage_add(mps_stage *s, int32_t phase, int64_t count, const double *x, const double *u)
 {
-    mps__host *h = s->host;
+    mps__runner *h = s->host;
     const int32_t dim = s->view->dim;
-    if (s->hook != MPS_POPULATE) return not_here(s, "mps_stage_add");
+    if (s->hook != MPS_POPULATE) return refuse_hook(s, "mps_stage_add");
     if (phase < 0 || phase >= MPS__PHASES || !h->phase_defined[phase])
         return mps_stage_fail(s, "mps_stage_add(): phase %d is not defined", (int)phase);
     if (count < 0 || (count > 0 && !(x && u)))
@@ -142,14 +142,14 @@ int mps_stage_add(mps_stage *s, int32_t phase, int64_t count, const double *x, c
 
 int mps_stage_remove(mps_stage *s, const int32_t *leaves)
 {
-    mps__host *h = s->host;
+    mps__runner *h = s->host;
     const int64_t n = s->view->n;
-    if (s->hook != MPS_POPULATE) return not_here(s, "mps_stage_remove");
+    if (s->hook != MPS_POPULATE) return refuse_hook(s, "mps_stage_remove");
     if (!leaves) return mps_stage_fail(s, "mps_stage_remove(): leaves is NULL");
     /* an earlier call in this step may have set marks, which are kept: the capacity suffices
      * then */
     if (n > h->leaves_capacity && mps__grow(h->context, (void **)&h->leaves, &h->leaves_capacity, 0,
-                                            mps__room(n, h->leaves_capacity), 1) < 0) {
+                                            mps__capacity_for(n, h->leaves_capacity), 1) < 0) {
         h->no_memory = true;
         return 1;
     }

@@ -35,10 +35,10 @@ static void commit(mps__step *q)
     q->info.dt = q->view.dt;
     q->info.t = w->state.t;
     q->info.lost = w->state.lost;
-    q->info.pockets = w->host.gas.pockets;
-    q->info.pocket_volume = w->host.gas.volume;
-    q->info.pocket_pressure = w->host.gas.pressure;
-    q->budget.gas += w->host.gas.work;
+    q->info.pockets = w->runner.gas.pockets;
+    q->info.pocket_volume = w->runner.gas.volume;
+    q->info.pocket_pressure = w->runner.gas.pressure;
+    q->budget.gas += w->runner.gas.work;
     w->info = q->info;
     w->state.before = w->motion.now;
     w->state.dt_before = q->view.dt;
@@ -49,10 +49,10 @@ static void commit(mps__step *q)
     memcpy(w->state.reaction, q->reaction, sizeof q->reaction);
     w->state.budget.last = q->last;
     w->booked = mps__particles_flow(&w->particles);
-    memcpy(w->ahead.most, q->ahead, sizeof q->ahead);
+    memcpy(w->next_flags.most, q->next_flags, sizeof q->next_flags);
     /* solids move in the tank; without a device nothing was requested */
-    w->ahead.flow = w->host.twins.last.launches > 0 && !w->work.bodies ? w->booked : -1;
-    w->ahead.searches = w->lists.neighbours.searches;
+    w->next_flags.flow = w->runner.memory.last.launches > 0 && !w->work.bodies ? w->booked : -1;
+    w->next_flags.searches = w->lists.neighbours.searches;
     w->state.budget.deviation = q->deviation;
     if (!w->state.budget.started) {
         w->state.budget.started = true;
@@ -63,7 +63,7 @@ static void commit(mps__step *q)
 /* Times by MPS_STAGE_...; the last one is the remainder. */
 static void book_times(mps__step *q, double seconds)
 {
-    mps__host *h = &q->w->host;
+    mps__runner *h = &q->w->runner;
     double *stage = q->w->info.seconds, rest = seconds;
     h->seconds[MPS_STAGE_PPE_SOLVE] -= q->setup_seconds;
     h->seconds[MPS_STAGE_PPE_SETUP] += q->setup_seconds;
@@ -107,23 +107,23 @@ static mps_status try_step(mps__step *q, double dt_max, double *planned)
     if (w->lists.gone > 0 || w->lists.first_new != w->particles.next_id)
         mps__budget_book_added(w, &q->budget);
     MPS__TRY(start(w, &q->budget));
-    MPS__TRY(mps__step_turn_areas(w));
+    MPS__TRY(mps__step_rotate_areas(w));
     MPS__TRY(mps__step_place_solids(w));
     /* a user's kernel function has no device code */
     if (w->setup.kernel.id != MPS_KERNEL_CUSTOM)
-        MPS__TRY(mps__twins_open(&w->host.twins, &w->host.plan));
-    MPS__TRY(mps__world_lists_twins(w));
+        MPS__TRY(mps__memory_open(&w->runner.memory, &w->runner.plan));
+    MPS__TRY(mps__world_mirror_lists(w));
     mps__step_find_areas(w);
     mps__step_open(q);
-    mps__host_tell_places(&w->host);
+    mps__runner_log_spaces(&w->runner);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
     MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));
-    mps__host_book(&w->host, MPS__OPEN);
+    mps__runner_book(&w->runner, MPS__OPEN);
     MPS__TRY(mps__world_limit_step(w, &q->stage, &q->view, dt_max, planned, &q->info.limit));
     MPS__TRY(mps__motion_pose(&w->motion, w->state.t + q->view.dt, &q->pose));
     MPS__TRY(mps__world_check_pose(w, &w->motion, &q->pose, MPS_E_DIVERGED));
     mps__motion_view_next(&q->pose, &q->view.tank);
-    mps__host_book(&w->host, MPS__LIMITS);
+    mps__runner_book(&w->runner, MPS__LIMITS);
     MPS__TRY(run_hooks(q));
     MPS__TRY(check_numbers(w));
     return mps__ranks_status(&w->ranks);
@@ -170,12 +170,12 @@ static mps_status name_coupling(const mps__step *q, mps_status status)
 
 /* After the calls. Lists on the device may be lost: then the next step searches again at the
  * positions of the last search. */
-static mps_status leave_device(mps__world *w)
+static mps_status exit_device(mps__world *w)
 {
-    const mps__twins *t = &w->host.twins;
+    const mps__memory *t = &w->runner.memory;
     char why[MPS__ERROR_SIZE];
-    const mps_status status = mps__twins_close(&w->host.twins);
-    w->ahead.holds = false;
+    const mps_status status = mps__memory_close(&w->runner.memory);
+    w->next_flags.holds = false;
     if (status == MPS_OK) return MPS_OK;
     if (t->torn) w->lists.neighbours.torn = true;
     memcpy(why, w->context->error, sizeof why);
@@ -185,32 +185,32 @@ static mps_status leave_device(mps__world *w)
 mps_status mps__world_step(mps__world *w, double dt_max)
 {
     mps__step q = {.w = w};
-    mps__host_begin(&w->host);
-    const double begin = w->host.clock;
+    mps__runner_begin(&w->runner);
+    const double begin = w->runner.clock;
     w->balance.waited = w->ranks.seconds;
-    MPS__TRY(mps__twins_alive(&w->host.twins));
+    MPS__TRY(mps__memory_alive(&w->runner.memory));
     MPS__TRY(mps__world_adopt(w));
-    MPS__TRY(mps__plan_make(&w->host.plan, &w->models));
-    mps__plan_note(&w->host.plan, &w->models);
+    MPS__TRY(mps__plan_make(&w->runner.plan, &w->models));
+    mps__plan_note(&w->runner.plan, &w->models);
     /* changes since the last step, whether this one succeeds or not */
     MPS__TRY(mps__step_book_between(w));
-    mps__twins_begin(&w->host.twins);
-    w->ahead.holds = w->ahead.flow == mps__particles_flow(&w->particles) &&
-                     w->ahead.searches == w->lists.neighbours.searches;
+    mps__memory_begin(&w->runner.memory);
+    w->next_flags.holds = w->next_flags.flow == mps__particles_flow(&w->particles) &&
+                          w->next_flags.searches == w->lists.neighbours.searches;
     mps_status status = prepare(w);
     if (status < 0) {
-        leave_device(w);
+        exit_device(w);
         mps__world_depopulate(w);
         return status;
     }
-    w->host.seconds[MPS_STAGE_NEIGHBOURS] += mps__host_book(&w->host, MPS__SEARCH);
+    w->runner.seconds[MPS_STAGE_NEIGHBOURS] += mps__runner_book(&w->runner, MPS__SEARCH);
     const int32_t start_pending = w->state.start_pending;
     double planned = 0;
     status = mps__undo_keep(w);
-    mps__host_book(&w->host, MPS__UNDO);
+    mps__runner_book(&w->runner, MPS__UNDO);
     const bool kept = status >= 0;
     if (kept) status = try_step(&q, dt_max, &planned);
-    const mps_status closed = leave_device(w);
+    const mps_status closed = exit_device(w);
     if (closed < 0) status = closed; /* a device error takes precedence */
     if (kept && status < 0) {
         const mps_status undone = mps__undo_restore(w, q.before);
@@ -224,12 +224,12 @@ mps_status mps__world_step(mps__world *w, double dt_max)
     if (w->state.step == 0) mps__world_note_phases(w);
     commit(&q);
 #ifdef MPS_CHECKED
-    mps__guard_poison(&w->host);
+    mps__guard_poison(&w->runner);
 #endif
     /* a step shortened by the caller does not limit the growth of the next */
     if (planned > 0) w->state.dt_previous = planned;
-    mps__host_book(&w->host, MPS__COMMIT);
-    book_times(&q, w->host.clock - begin);
+    mps__runner_book(&w->runner, MPS__COMMIT);
+    book_times(&q, w->runner.clock - begin);
     mps__world_balance(w, mps__clock() - begin);
     MPS__TRY(mps__ranks_status(&w->ranks));
     return q.not_converged ? MPS_W_NOT_CONVERGED : MPS_OK;

@@ -16,7 +16,7 @@ typedef struct mps__outcome {
     /* negative of the least id of a particle that is not finite or too fast; -INFINITY: none */
     double failed;
 } mps__outcome;
-/* Deferred: valid after mps__host_settle(). moves.c */
+/* Deferred: valid after mps__runner_flush(). moves.c */
 void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose,
                            mps__outcome *v);
 /* Fail if a value is not finite or too fast, with the particle and its position before it moved, if
@@ -39,7 +39,7 @@ mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, doubl
 mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
                                  mps_status refusal);
 /* Largest displacement [m] of the walls from the present pose to another, and of the fluid relative
- * to them if it keeps its velocity for dt. Deferred: valid after mps__host_settle(). moves.c */
+ * to them if it keeps its velocity for dt. Deferred: valid after mps__runner_flush(). moves.c */
 void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way);
 
 /* ---- a step in progress ---- */
@@ -69,7 +69,7 @@ typedef struct mps__step {
     mps__outcome outcome; /* at the end */
     double speeds[2];     /* squares, for the crossing time; */
     bool nearly;          /* search only pieces nearly as fast as the previous one */
-    double ahead[MPS__AHEADS];
+    double next_flags[MPS__NEXT_FLAGS];
     double body_work;      /* of solids that models move */
     double lift;           /* potential energy lost by displacements */
     mps__push before_line; /* values before the verbs of `line` in the present hook */
@@ -116,7 +116,7 @@ extern const mps__pass mps__pass_clear_equation, mps__pass_first_conditions;
 
 /* Allocate area vectors of the walls at the beginning of the step; compute them, in the memory
  * space of the loops. */
-mps_status mps__step_turn_areas(mps__world *w);
+mps_status mps__step_rotate_areas(mps__world *w);
 void mps__step_find_areas(mps__world *w);
 /* Arrays of the channels "solid_place" and "solid_area" in this step; copy them to the particles
  * after it. */
@@ -125,7 +125,7 @@ void mps__step_keep_places(mps__world *w, const double *place, const double *are
 /* Velocities of the solids over this step and accelerations of the tank; jumps of its velocity. */
 extern const mps__pass mps__pass_tank, mps__pass_jump;
 /* Whether the tank's velocity jumps, by accelerations of all particles; may be called again.
- * Deferred: valid after mps__host_settle(). */
+ * Deferred: valid after mps__runner_flush(). */
 void mps__step_note_jump(mps_stage *s, const double *acceleration);
 
 /* ---- the fluid: step_fluid.c ---- */
@@ -135,7 +135,7 @@ extern const mps__pass mps__pass_neighbours;
 /* u* = u + dt (a + g); u = u* + dt a(p); r = r + dt u + shift. Z14 (9)(12)(13). */
 extern const mps__pass mps__pass_clear_forces, mps__pass_predict, mps__pass_clear_gradient,
     mps__pass_first_loads, mps__pass_push, mps__pass_clear_displacement, mps__pass_move,
-    mps__pass_check, mps__pass_share, mps__pass_keep;
+    mps__pass_check, mps__pass_exchange, mps__pass_keep;
 
 /* ---- a body that carries the tank: step_body.c ---- */
 
@@ -153,7 +153,7 @@ void mps__step_body_end(mps__step *q);
 /* ---- the crossing time: crossing.c ---- */
 
 /* mps_step_info.crossing_time, from the speeds at the end of the step; on a device the speeds are
- * valid after mps__host_settle(). */
+ * valid after mps__runner_flush(). */
 extern const mps__pass mps__pass_crossing;
 void mps__step_crossing_end(mps_stage *s);
 

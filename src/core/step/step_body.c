@@ -216,7 +216,7 @@ static mps_status move_body(mps_stage *s)
     MPS__TRY(check_way(s, &f));
     mps_stage_rows(s, &correct_rows, &f);
     mps__step_note_jump(s, f.tank);
-    mps__host_settle(&w->host);
+    mps__runner_flush(&w->runner);
     return MPS_OK;
 }
 
@@ -239,7 +239,7 @@ const mps__pass mps__pass_body = {.name = "body",
                                   .hook = MPS_GRADIENT,
                                   .place = MPS__AFTER_MODELS,
                                   .stage = MPS_STAGE_CORRECT,
-                                  .everywhere = true,
+                                  .with_ghosts = true,
                                   .use_count = USES,
                                   .uses = body_uses,
                                   .run = move_body,

@@ -8,7 +8,7 @@
 /* Whether verbs run at a hook; without, nothing changes. */
 static bool acts(const mps__step *q, int32_t hook)
 {
-    const mps__plan *p = &q->w->host.plan;
+    const mps__plan *p = &q->w->runner.plan;
     bool any = false;
     for (int32_t k = p->begin[hook]; k < p->begin[hook + 1]; k++) any = any || p->call[k].model;
     return any;
@@ -34,8 +34,8 @@ static mps__push so_far(const mps__step *q)
     mps__push push = {0};
     mps__bulk bulk;
     if (q->stage.hook == MPS_FORCE) {
-        mps__twins *t = &q->w->host.twins;
-        const double *a = mps__twins_array(t, MPS__ACCELERATION, t->place);
+        mps__memory *t = &q->w->runner.memory;
+        const double *a = mps__memory_array(t, MPS__ACCELERATION, t->space);
         mps__budget_push(q->w, a, q->view.dt, &push);
         return push;
     }
@@ -52,11 +52,11 @@ void mps__step_book_line(mps__step *q, bool after)
     mps_momentum *m = &b->momentum;
     const bool friction = q->line == MPS__LINE_FRICTION;
     if (!force && q->stage.hook != MPS_VELOCITY) return;
-    mps__twins *t = &q->w->host.twins;
-    mps__twins_go(t, MPS__ON_DEVICE);
-    if (force) mps__twins_ready(t, MPS__ACCELERATION, t->place);
+    mps__memory *t = &q->w->runner.memory;
+    mps__memory_set_space(t, MPS__ON_DEVICE);
+    if (force) mps__memory_sync(t, MPS__ACCELERATION, t->space);
     const mps__push now = so_far(q);
-    mps__twins_go(t, MPS__ON_HOST);
+    mps__memory_set_space(t, MPS__ON_HOST);
     if (!after) {
         q->before_line = now;
         return;
@@ -92,7 +92,7 @@ static void add_forces(void *step, const double *sums)
 static mps_status book_forces(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__budget_push_later(q->w, s->data[0], q->view.dt, (mps__then){add_forces, q});
+    mps__budget_push_deferred(q->w, s->data[0], q->view.dt, (mps__then){add_forces, q});
     return MPS_OK;
 }
 
@@ -138,7 +138,7 @@ static mps_status book_pressure(mps_stage *s)
     q->body_work = mps__budget_body_work(w, s->data[1], s->data[4]);
     mps__budget_wall_work(w, &q->pose, s->data[0], dt, (mps__then){add_wall_work, q});
     mps__budget_wall_force(w, &q->pose, s->data[1], dt, (mps__then){add_wall_force, q});
-    mps__budget_flow_later(w, (mps__then){add_pressure, q});
+    mps__budget_flow_deferred(w, (mps__then){add_pressure, q});
     return MPS_OK;
 }
 
@@ -171,7 +171,7 @@ static void add_collisions(void *step, const double *sums)
 static mps_status book_collisions(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    if (acts(q, MPS_VELOCITY)) mps__budget_flow_later(q->w, (mps__then){add_collisions, q});
+    if (acts(q, MPS_VELOCITY)) mps__budget_flow_deferred(q->w, (mps__then){add_collisions, q});
     return MPS_OK;
 }
 
@@ -208,7 +208,7 @@ static mps_status book_shift(mps_stage *s)
     mps__step *q = mps__step_of(s);
     if (!acts(q, MPS_SHIFT)) return MPS_OK;
     mps__budget_lift(q->w, s->data[0], (mps__then){take_lift, q});
-    mps__budget_flow_later(q->w, (mps__then){add_shift, q});
+    mps__budget_flow_deferred(q->w, (mps__then){add_shift, q});
     return MPS_OK;
 }
 
@@ -228,14 +228,14 @@ const mps__pass mps__pass_book_shift = {.name = "book_shift",
 static void stop_drops(mps_stage *s, mps__world *w)
 {
     static const int32_t changed[] = {MPS__POSITION, MPS__VELOCITY};
-    mps__twins *t = &w->host.twins;
-    const bool there = t->place == MPS__ON_DEVICE;
-    const mps_view *view = there ? mps__host_begin_serial(s) : NULL;
-    for (int k = 0; k < 2; k++) mps__twins_ready(t, changed[k], MPS__ON_HOST);
+    mps__memory *t = &w->runner.memory;
+    const bool on_device = t->space == MPS__ON_DEVICE;
+    const mps_view *view = on_device ? mps__runner_begin_serial(s) : NULL;
+    for (int k = 0; k < 2; k++) mps__memory_sync(t, changed[k], MPS__ON_HOST);
     mps__plates_stop(w, &mps__step_of(s)->pose);
-    for (int k = 0; k < 2; k++) mps__twins_written(t, changed[k], MPS__ON_HOST);
-    if (there) mps__host_end_serial(s, view);
-    for (int k = 0; k < 2; k++) mps__twins_ready(t, changed[k], t->place);
+    for (int k = 0; k < 2; k++) mps__memory_written(t, changed[k], MPS__ON_HOST);
+    if (on_device) mps__runner_end_serial(s, view);
+    for (int k = 0; k < 2; k++) mps__memory_sync(t, changed[k], t->space);
 }
 
 static mps_status stop_at_plates(mps_stage *s)
@@ -243,8 +243,8 @@ static mps_status stop_at_plates(mps_stage *s)
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps__bulk moved, stopped;
-    if (w->lists.screens.count == 0) return MPS_OK;
-    mps__host_settle(&w->host); /* keep the order of the entries */
+    if (w->lists.occluders.count == 0) return MPS_OK;
+    mps__runner_flush(&w->runner); /* keep the order of the entries */
     mps__budget_sum(w, &moved);
     stop_drops(s, w);
     mps__budget_sum(w, &stopped);

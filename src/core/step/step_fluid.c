@@ -8,19 +8,19 @@ static mps_status find_near_rows(mps_stage *s)
 {
     mps__world *w = mps__step_of(s)->w;
     mps_neighbours *l = &w->lists.neighbours;
-    mps__twins *t = &w->host.twins;
+    mps__memory *t = &w->runner.memory;
     int64_t pairs = 0, *begin = mps__given_list(w, MPS__NEAR_BEGIN, l->near_begin);
     mps__neighbours_near(l, mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
                          mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle), begin);
     if (mps__device_of(l->parallel))
-        mps__host_settle_with(&w->host, begin + l->n, &pairs, sizeof pairs);
+        mps__runner_flush_with(&w->runner, begin + l->n, &pairs, sizeof pairs);
     else
         pairs = l->near_begin[l->n];
     MPS__TRY(mps__device_status(&t->device));
     MPS__TRY(mps__neighbours_near_fit(l, pairs));
     MPS__TRY(
-        mps__twins_block(t, MPS__NEAR_COLUMNS, l->near_col, pairs, sizeof *l->near_col, false));
-    return mps__twins_block(t, MPS__NEAR_WEIGHTS, l->w_r2, pairs, sizeof *l->w_r2, false);
+        mps__memory_block(t, MPS__NEAR_COLUMNS, l->near_col, pairs, sizeof *l->near_col, false));
+    return mps__memory_block(t, MPS__NEAR_WEIGHTS, l->w_r2, pairs, sizeof *l->w_r2, false);
 }
 
 const mps__pass mps__pass_neighbours = {.name = "neighbours",
@@ -48,7 +48,7 @@ static const mps_use clear_uses[] = {{"acceleration", MPS_USE_WRITE | MPS__USE_B
 const mps__pass mps__pass_clear_forces = {.name = "clear_forces",
                                           .hook = MPS_FORCE,
                                           .stage = MPS_STAGE_OPERATORS,
-                                          .everywhere = true,
+                                          .with_ghosts = true,
                                           .flat = true,
                                           .use_count = 1,
                                           .uses = clear_uses,
@@ -57,7 +57,7 @@ const mps__pass mps__pass_clear_forces = {.name = "clear_forces",
 const mps__pass mps__pass_clear_gradient = {.name = "clear_gradient",
                                             .hook = MPS_GRADIENT,
                                             .stage = MPS_STAGE_CORRECT,
-                                            .everywhere = true,
+                                            .with_ghosts = true,
                                             .flat = true,
                                             .use_count = 1,
                                             .uses = clear_uses,
@@ -126,7 +126,7 @@ static const mps_use load_uses[] = {{"pressure", MPS_USE_READ},
 const mps__pass mps__pass_first_loads = {.name = "first_loads",
                                          .hook = MPS_LOAD,
                                          .stage = MPS_STAGE_CORRECT,
-                                         .everywhere = true,
+                                         .with_ghosts = true,
                                          .flat = true,
                                          .use_count = 2,
                                          .uses = load_uses,
@@ -139,7 +139,7 @@ static const mps_use displacement_uses[] = {{"displacement", MPS_USE_WRITE | MPS
 const mps__pass mps__pass_clear_displacement = {.name = "clear_displacement",
                                                 .hook = MPS_SHIFT,
                                                 .stage = MPS_STAGE_CORRECT,
-                                                .everywhere = true,
+                                                .with_ghosts = true,
                                                 .flat = true,
                                                 .use_count = 1,
                                                 .uses = displacement_uses,
@@ -182,7 +182,7 @@ const mps__pass mps__pass_move = {.name = "move",
                                   .hook = MPS_SHIFT,
                                   .place = MPS__AFTER_MODELS,
                                   .stage = MPS_STAGE_CORRECT,
-                                  .everywhere = true,
+                                  .with_ghosts = true,
                                   .flat = true,
                                   .use_count = 5,
                                   .uses = move_uses,
@@ -190,9 +190,9 @@ const mps__pass mps__pass_move = {.name = "move",
 
 /* ---- checks, and final values ---- */
 
-static mps_status tell_result(mps__step *q)
+static mps_status check_result(mps__step *q)
 {
-    MPS__TRY(mps__host_check_reactions(&q->w->host, q->view.t));
+    MPS__TRY(mps__runner_check_reactions(&q->w->runner, q->view.t));
     return mps__world_check_result(q->w, &q->view, true, &q->outcome, &q->info);
 }
 
@@ -202,9 +202,9 @@ static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world_ask_result(q->w, &q->view, &q->pose, &q->outcome);
-    if (mps__world_may_jump(q->w)) mps__host_settle(&q->w->host);
+    if (mps__world_may_jump(q->w)) mps__runner_flush(&q->w->runner);
     if (mps__world_may_jump(q->w) || !mps__device_of(&q->w->pool.parallel))
-        MPS__TRY(tell_result(q));
+        MPS__TRY(check_result(q));
     return mps__world_check_moves(q->w, &q->pose, s->data[3], q->view.dt);
 }
 
@@ -224,30 +224,30 @@ const mps__pass mps__pass_check = {.name = "check",
 
 static mps_status share(mps_stage *s)
 {
-    return mps__world_share_step(mps__step_of(s)->w);
+    return mps__world_exchange_step(mps__step_of(s)->w);
 }
 
 /* Halo exchange of changed fields, for leases and the next step. */
-const mps__pass mps__pass_share = {.name = "share",
-                                   .hook = MPS_SHIFT,
-                                   .place = MPS__AFTER_MODELS,
-                                   .stage = MPS_STAGE_CORRECT,
-                                   .flat = true,
-                                   .undeclared = true,
-                                   .run = share};
+const mps__pass mps__pass_exchange = {.name = "share",
+                                      .hook = MPS_SHIFT,
+                                      .place = MPS__AFTER_MODELS,
+                                      .stage = MPS_STAGE_CORRECT,
+                                      .flat = true,
+                                      .undeclared = true,
+                                      .run = share};
 
 typedef struct keep_fields {
     const double *wall_pressure;
     const int32_t *condition, *region;
     double *load;
-    uint8_t *held;
+    uint8_t *active;
 } keep_fields;
 
 MPS_ROW void keep_row(const int dim, const mps_view *v, const keep_fields *f, int64_t i)
 {
     (void)dim, (void)v;
     f->load[i] = f->wall_pressure[i];
-    f->held[i] = f->condition[i] == MPS__ROW_HELD;
+    f->active[i] = f->condition[i] == MPS__ROW_ACTIVE;
 }
 MPS_ROWS(keep_rows, keep_row, keep_fields)
 
@@ -259,7 +259,7 @@ MPS_ROW void count_row(const int dim, const mps_view *v, const keep_fields *f, i
 {
     (void)dim;
     sums[SURFACE] += mps_is_fluid(v, i) && f->region[i] == MPS_REGION_SURFACE;
-    sums[SEPARATED] += f->condition[i] == MPS__ROW_HELD;
+    sums[SEPARATED] += f->condition[i] == MPS__ROW_ACTIVE;
 }
 MPS_SUMS(count_rows, count_row, keep_fields)
 
@@ -291,16 +291,17 @@ static mps_status keep(mps_stage *s)
                            .condition = s->data[1],
                            .region = s->data[2],
                            .load = mps__given(w, MPS__FIELD_WALL_PRESSURE),
-                           .held = mps__given(w, MPS__FIELD_HELD)};
-    const bool there = mps__device_of(&w->pool.parallel) != NULL;
-    mps__host_sum_later(&w->host, s->view, COUNTS, &count_rows, &f, (mps__then){take_counts, q});
+                           .active = mps__given(w, MPS__FIELD_HELD)};
+    const bool on_device = mps__device_of(&w->pool.parallel) != NULL;
+    mps__runner_sum_deferred(&w->runner, s->view, COUNTS, &count_rows, &f,
+                             (mps__then){take_counts, q});
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
-    mps__budget_later(w, (mps__then){take_last, q});
-    if (there && !w->work.bodies) mps__world_look_ahead(w, &q->pose, q->ahead);
-    mps__host_settle(&w->host);
-    MPS__TRY(mps__device_status(&w->host.twins.device));
-    if (there) MPS__TRY(tell_result(q));
-    if (there) mps__step_crossing_end(s);
+    mps__budget_deferred(w, (mps__then){take_last, q});
+    if (on_device && !w->work.bodies) mps__world_next_flags(w, &q->pose, q->next_flags);
+    mps__runner_flush(&w->runner);
+    MPS__TRY(mps__device_status(&w->runner.memory.device));
+    if (on_device) MPS__TRY(check_result(q));
+    if (on_device) mps__step_crossing_end(s);
     mps_stage_rows(s, &keep_rows, &f);
     mps__step_keep_places(w, s->data[4], s->data[5]);
     mps__step_load_close(q);
@@ -317,7 +318,7 @@ const mps__pass mps__pass_keep = {.name = "keep",
                                   .place = MPS__LAST_OF_STEP,
                                   .stage = MPS_STAGE_CORRECT,
                                   .undeclared = true,
-                                  .everywhere = true,
+                                  .with_ghosts = true,
                                   .flat = true,
                                   .use_count = sizeof keep_uses / sizeof keep_uses[0],
                                   .uses = keep_uses,

@@ -72,7 +72,7 @@ static void sum_momentum(const mps__step *q, const double *a, bool masses,
     mps_view v;
     memcpy(f.at, q->load.at, sizeof f.at);
     mps__world_view(w, &v);
-    mps__host_sum(&w->host, &v, masses ? own + 1 + dim : own, &add_moments, &f, found);
+    mps__runner_sum(&w->runner, &v, masses ? own + 1 + dim : own, &add_moments, &f, found);
     memset(sums, 0, MPS__MOMENTUM * sizeof *sums);
     memcpy(sums, found, (size_t)dim * sizeof *sums);
     memcpy(sums + 6 - turns, found + dim, (size_t)turns * sizeof *sums);

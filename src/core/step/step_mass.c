@@ -56,11 +56,12 @@ static void get_ready(mps__world *w)
 {
     int32_t channel[MPS__FLUX_CHANNELS];
     mps__flux_channels(&w->channels, channel);
-    mps__twins_fields_ready(&w->host.twins);
-    mps__twins_lists_ready(&w->host.twins);
+    mps__memory_sync_fields(&w->runner.memory);
+    mps__memory_sync_lists(&w->runner.memory);
     for (int k = 0; k < MPS__FLUX_CHANNELS; k++)
-        if (channel[k] >= 0) mps__twins_ready(&w->host.twins, channel[k], MPS__ON_HOST);
-    mps__twins_ready(&w->host.twins, mps__channels_find(&w->channels, "correction"), MPS__ON_HOST);
+        if (channel[k] >= 0) mps__memory_sync(&w->runner.memory, channel[k], MPS__ON_HOST);
+    mps__memory_sync(&w->runner.memory, mps__channels_find(&w->channels, "correction"),
+                     MPS__ON_HOST);
 }
 
 static mps_status reserve(mps__world *w, int32_t count)
@@ -69,7 +70,8 @@ static mps_status reserve(mps__world *w, int32_t count)
     const mps__ppe *e = &w->ppe;
     const int64_t n = w->particles.n * count;
     MPS__TRY(mps__grow(w->context, (void **)&m->next, &m->next_capacity, 0,
-                       n > m->next_capacity ? mps__room(n, m->next_capacity) : n, sizeof *m->next));
+                       n > m->next_capacity ? mps__capacity_for(n, m->next_capacity) : n,
+                       sizeof *m->next));
     MPS__TRY(mps__grow(w->context, (void **)&m->a, &m->a_capacity, 0, n * w->setup.dim + 1,
                        sizeof *m->a));
     MPS__TRY(
@@ -96,7 +98,7 @@ static mps_status solve_column(mps__step *q, const int32_t *freedom, int32_t dof
     q->load.iterations += result.iterations;
     if (status < 0 && status != MPS_E_SOLVER) return status;
     q->load.has_mass = q->load.has_mass && status == MPS_OK;
-    if (mps_ppe_share(&e->problem, m->p)) return mps__ranks_status(&w->ranks);
+    if (mps_ppe_halo(&e->problem, m->p)) return mps__ranks_status(&w->ranks);
     mps__loop_run(parallel, &transfer_rows, dim, w->particles.n,
                   &(transfer){e->unknown, m->p, m->next, 1, 0, count, c});
     return MPS_OK;
@@ -234,14 +236,14 @@ static mps_status sum_columns(mps__step *q, const int32_t *freedom, int32_t dofs
     memcpy(f.at, q->load.at, sizeof f.at);
     f.correction = mps__channels_array(&w->channels, &w->particles, correction);
     v.flux = *flux;
-    mps__host_rows(&w->host, &v, &change_rows, &f);
-    MPS__TRY(mps__ghosts_share(
-        &w->ghosts, &(mps__shared){.values = f.a, .bytes = (size_t)(count * dim) * sizeof *f.a},
+    mps__runner_rows(&w->runner, &v, &change_rows, &f);
+    MPS__TRY(mps__ghosts_exchange(
+        &w->ghosts, &(mps__halo_array){.values = f.a, .bytes = (size_t)(count * dim) * sizeof *f.a},
         1));
     for (; f.first < count; f.first = f.last) {
         double sums[MPS_PARALLEL_VALUES] = {0};
         f.last = f.first + AT_ONCE(dim) < count ? f.first + AT_ONCE(dim) : count;
-        mps__host_sum(&w->host, &v, (f.last - f.first) * dofs, &add_changes, &f, sums);
+        mps__runner_sum(&w->runner, &v, (f.last - f.first) * dofs, &add_changes, &f, sums);
         for (int32_t c = f.first; c < f.last; c++)
             for (int32_t k = 0; k < dofs; k++)
                 q->load.mass[6 * freedom[k] + freedom[q->columns.degree[c]]] =

@@ -37,14 +37,14 @@ MPS__FIRST(laws, has_law, law_fields)
 static mps_status check_laws(mps__step *q, const double *law)
 {
     const mps__world *w = q->w;
-    const bool written = mps__host_writer(&w->host, MPS__GAS_LAW) != NULL;
+    const bool written = mps__runner_writer(&w->runner, MPS__GAS_LAW) != NULL;
     q->terms.linear = !written || !w->solvers.use->nonlinear;
     if (written && !w->solvers.use->nonlinear &&
         mps__first_run(&w->pool.parallel, &laws, q->view.n, &(law_fields){law}) < q->view.n)
         return mps__fail(w->context, MPS_E_STATE,
                          "model '%s' makes the pressure equation nonlinear, and solver '%s' is "
                          "for linear ones: choose 'sundials.kinsol'",
-                         mps__host_writer(&w->host, MPS__GAS_LAW), w->solvers.use->name);
+                         mps__runner_writer(&w->runner, MPS__GAS_LAW), w->solvers.use->name);
     return MPS_OK;
 }
 
@@ -160,19 +160,19 @@ const mps__pass mps__pass_unknowns = {.name = "unknowns",
 /* ---- solution ---- */
 
 /* Error text of a failed solution. A NaN of the prediction has a particle and a position. */
-static mps_status tell_failure(mps_stage *s, mps_status status)
+static mps_status log_failure(mps_stage *s, mps_status status)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     if (status == MPS_E_SOLVER) {
-        const mps_view *there = w->ppe.device ? mps__host_begin_serial(s) : NULL;
-        mps__twins_fields_ready(&w->host.twins);
+        const mps_view *on_device = w->ppe.device ? mps__runner_begin_serial(s) : NULL;
+        mps__memory_sync_fields(&w->runner.memory);
         mps__world_ask_result(w, &q->view, &q->pose, &q->outcome);
-        mps__host_settle(&w->host);
-        mps_status found = mps__host_check_reactions(&w->host, q->view.t);
+        mps__runner_flush(&w->runner);
+        mps_status found = mps__runner_check_reactions(&w->runner, q->view.t);
         if (found == MPS_OK)
             found = mps__world_check_result(w, &q->view, false, &q->outcome, &q->info);
-        if (there) mps__host_end_serial(s, there);
+        if (on_device) mps__runner_end_serial(s, on_device);
         MPS__TRY(found);
     }
     return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
@@ -185,7 +185,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     mps__world *w = q->w;
     mps_ppe_result result = {.struct_size = sizeof result};
     mps_status status = MPS_OK;
-    w->bounds.held = mps__seen(w, MPS__FIELD_HELD);
+    w->bounds.active = mps__seen(w, MPS__FIELD_HELD);
     w->bounds.solves = 0;
     if (mps__ppe_rows(&w->ppe) > 0)
         status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
@@ -193,7 +193,7 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
     /* if another rank has failed, report its reason, not the effect of its last values on the
      * solution */
     if (status == MPS_E_SOLVER) MPS__TRY(mps__ranks_status(&w->ranks));
-    if (status < 0) return tell_failure(s, status);
+    if (status < 0) return log_failure(s, status);
     q->not_converged = status == MPS_W_NOT_CONVERGED;
     if (q->not_converged)
         mps__log(w->context, MPS_LOG_WARNING, "t = %.9g s: %.400s", q->view.t, w->context->error);
@@ -220,36 +220,36 @@ static bool stays(const mps__step *q)
 {
     const mps__world *w = q->w;
     return !w->solvers.device || (w->ppe.device && q->load.what != MPS_LOAD_MASS &&
-                                  mps__solvers_there(&w->solvers, &w->ppe.problem));
+                                  mps__solvers_on_device(&w->solvers, &w->ppe.problem));
 }
 
 /* Copy the equation to the host, solve it, and copy pressures and conditions back. */
-static mps_status solve_here(mps_stage *s)
+static mps_status solve_on_host(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
-    mps__twins *t = &w->host.twins;
-    const mps_view *there = mps__host_begin_serial(s);
-    mps_status status = w->ppe.device ? mps__ppe_come(&w->ppe) : MPS_OK;
-    mps__twins_ready(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
-    mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
-    mps__twins_ready(t, MPS__PRESSURE_DENSITY, MPS__ON_HOST);
+    mps__memory *t = &w->runner.memory;
+    const mps_view *on_device = mps__runner_begin_serial(s);
+    mps_status status = w->ppe.device ? mps__ppe_to_host(&w->ppe) : MPS_OK;
+    mps__memory_sync(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
+    mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
+    mps__memory_sync(t, MPS__PRESSURE_DENSITY, MPS__ON_HOST);
     if (status == MPS_OK) status = mps__device_status(&t->device);
     if (status == MPS_OK) status = solve_equation(s, &q->terms);
-    mps__twins_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
-    mps__twins_ready(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);
-    mps__host_end_serial(s, there);
-    return status == MPS_OK ? mps__ppe_go(&w->ppe) : status;
+    mps__memory_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
+    mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);
+    mps__runner_end_serial(s, on_device);
+    return status == MPS_OK ? mps__ppe_to_device(&w->ppe) : status;
 }
 
 /* Components without a pressure datum: copy the equation to the host. */
 static mps_status close_levels(mps_stage *s)
 {
     mps__ppe *e = &mps__step_of(s)->w->ppe;
-    const mps_view *there = mps__host_begin_serial(s);
-    mps_status status = mps__ppe_come(e);
+    const mps_view *on_device = mps__runner_begin_serial(s);
+    mps_status status = mps__ppe_to_host(e);
     if (status == MPS_OK) status = mps__ppe_close(e, s->view);
-    mps__host_end_serial(s, there);
+    mps__runner_end_serial(s, on_device);
     return status;
 }
 
@@ -271,24 +271,24 @@ static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
     }
     MPS__TRY(close_levels(s));
     note_level(mps__step_of(s));
-    return solve_here(s);
+    return solve_on_host(s);
 }
 
 /* Log this once, as it is so in each step. */
-static void tell_apart(const mps__step *q)
+static void log_apart(const mps__step *q)
 {
     mps__world *w = q->w;
-    mps__twins *t = &w->host.twins;
+    mps__memory *t = &w->runner.memory;
     const mps__solvers *s = &w->solvers;
     char why[2 * MPS__NAME_SIZE + 40] = "";
-    if (t->told_solution == w->host.plan.changes) return;
+    if (t->logged_solution == w->runner.plan.changes) return;
     if (q->load.what == MPS_LOAD_MASS)
         snprintf(why, sizeof why, "the added mass is asked for");
-    else if (!mps__solvers_known_there(s))
+    else if (!mps__solvers_known_device(s))
         snprintf(why, sizeof why, "solver '%s' with preconditioner '%s'", s->use->name,
                  s->pc ? s->pc->name : "none");
     if (!why[0]) return;
-    t->told_solution = w->host.plan.changes;
+    t->logged_solution = w->runner.plan.changes;
     mps__log(w->context, MPS_LOG_INFO,
              "device '%s': the pressure equation is solved on the host, with copies of its matrix: "
              "%s",
@@ -298,12 +298,12 @@ static void tell_apart(const mps__step *q)
 /* Solve on the host an equation that was assembled on the device. */
 static mps_status solve_apart(mps_stage *s)
 {
-    tell_apart(mps__step_of(s));
+    log_apart(mps__step_of(s));
     mps__ppe *e = &mps__step_of(s)->w->ppe;
     if (e->device) MPS__TRY(mps__levels_wait(e));
     if (e->device && e->lacking) MPS__TRY(close_levels(s));
     note_level(mps__step_of(s));
-    return solve_here(s);
+    return solve_on_host(s);
 }
 
 static mps_status solve(mps_stage *s)
@@ -314,7 +314,7 @@ static mps_status solve(mps_stage *s)
     terms.flux = &s->view->flux;
     terms.value = s->data[LEAST];
     terms.condition = s->data[CONDITIONS];
-    solvers->device = mps__twins_device(&q->w->host.twins);
+    solvers->device = mps__memory_device(&q->w->runner.memory);
     const mps_status status = stays(q) ? solve_in_place(s, &terms) : solve_apart(s);
     solvers->device = NULL;
     return status;

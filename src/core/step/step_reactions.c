@@ -9,7 +9,7 @@ enum { PLACES = MPS__REACTIONS * 6 };
 /* The sums of mps__reactions: forces and moments of all ranks. */
 static void find_values(mps__world *w, int32_t places, double *value)
 {
-    mps_exact *sum = w->host.reactions.sum[0];
+    mps_exact *sum = w->runner.reactions.sum[0];
     mps__ranks_sum(w->ghosts.ranks, 6 * places, sum);
     for (int32_t k = 0; k < 6 * places; k++) value[k] = mps_exact_value(&sum[k]);
 }
@@ -42,7 +42,7 @@ static void add_reactions(void *step, const double *given)
     mps__step *q = step;
     mps__world *w = q->w;
     mps__budget *b = &q->budget;
-    mps__reactions *r = &w->host.reactions;
+    mps__reactions *r = &w->runner.reactions;
     double *const line[MPS__LINES] = {[MPS__LINE_VISCOUS] = &b->viscous,
                                       [MPS__LINE_COLLISION] = &b->collision,
                                       [MPS__LINE_FRICTION] = &b->friction,
@@ -73,7 +73,7 @@ static void add_reactions(void *step, const double *given)
 static mps_status book_reactions(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__host_reactions_later(&q->w->host, (mps__then){add_reactions, q});
+    mps__runner_reactions_deferred(&q->w->runner, (mps__then){add_reactions, q});
     return MPS_OK;
 }
 

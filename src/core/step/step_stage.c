@@ -75,7 +75,7 @@ static void show_flux(mps__step *q, const mps__call *call)
 /* Effects of plug-ins and friction have budget lines of their own. */
 static void note_line(mps__step *q, const mps__call *call)
 {
-    const int32_t line = mps__host_line(&q->w->host, call);
+    const int32_t line = mps__runner_line(&q->w->runner, call);
     const bool same_hook = q->line_hook == call->hook, goes_on = same_hook && q->line == line;
     if (same_hook && !goes_on && q->line != MPS__LINE_OF_HOOK) mps__step_book_line(q, true);
     q->line = line;
@@ -97,17 +97,17 @@ void mps__step_open(mps__step *q)
     set_flux(q);
     set_terms(q);
     w->voids.ready = false;
-    w->host.densities.agreed = false; /* particles were added or removed since MPS_POPULATE */
+    w->runner.densities.agreed = false; /* particles were added or removed since MPS_POPULATE */
     q->line = MPS__LINE_OF_HOOK;
-    w->host.step = q;
-    w->host.before_call = before_call;
-    memset(&w->host.reactions, 0, sizeof w->host.reactions);
-    w->host.gas = (mps__gas){0};
+    w->runner.step = q;
+    w->runner.before_call = before_call;
+    memset(&w->runner.reactions, 0, sizeof w->runner.reactions);
+    w->runner.gas = (mps__gas){0};
 }
 
 mps_status mps__step_run(mps__step *q, int32_t hook)
 {
-    return mps__host_run(&q->w->host, &q->stage, &q->view, hook);
+    return mps__runner_run(&q->w->runner, &q->stage, &q->view, hook);
 }
 
 /* ---- first values ---- */
@@ -117,15 +117,15 @@ mps_status mps__step_run(mps__step *q, int32_t hook)
 static mps_status weigh_pairs(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__twins *t = &q->w->host.twins;
+    mps__memory *t = &q->w->runner.memory;
     const mps_neighbours *l = &q->w->lists.neighbours;
     mps_stencil *near = &q->view.near;
     mps__op_weigh(
         &s->view->near,
-        &(mps__weighed){.begin = mps__twins_list_seen(t, MPS__NEAR_BEGIN, l->near_begin),
-                        .col = mps__twins_list_given(t, MPS__NEAR_COLUMNS, l->near_col, true),
-                        .w_r2 = mps__twins_list_given(t, MPS__NEAR_WEIGHTS, l->w_r2, true),
-                        .idle = mps__twins_list_seen(t, MPS__IDLE_ROWS, l->idle),
+        &(mps__weighed){.begin = mps__memory_list_seen(t, MPS__NEAR_BEGIN, l->near_begin),
+                        .col = mps__memory_list_given(t, MPS__NEAR_COLUMNS, l->near_col, true),
+                        .w_r2 = mps__memory_list_given(t, MPS__NEAR_WEIGHTS, l->w_r2, true),
+                        .idle = mps__memory_list_seen(t, MPS__IDLE_ROWS, l->idle),
                         .n = s->data[0],
                         .a = s->data[1]});
     near->begin = l->near_begin;
@@ -189,7 +189,7 @@ static const mps_use first_uses[] = {{"density", MPS_USE_READ},
 const mps__pass mps__pass_first_values = {.name = "first_values",
                                           .hook = MPS_CLASSIFY,
                                           .stage = MPS_STAGE_OPERATORS,
-                                          .everywhere = true,
+                                          .with_ghosts = true,
                                           .flat = true,
                                           .use_count = 3,
                                           .uses = first_uses,
@@ -216,7 +216,7 @@ static mps_status clear_equation(mps_stage *s)
 const mps__pass mps__pass_clear_equation = {.name = "clear_equation",
                                             .hook = MPS_SOURCE,
                                             .stage = MPS_STAGE_OPERATORS,
-                                            .everywhere = true,
+                                            .with_ghosts = true,
                                             .flat = true,
                                             .use_count = TERMS,
                                             .uses = term_uses,
@@ -246,7 +246,7 @@ static const mps_use condition_uses[] = {{"region", MPS_USE_READ},
 const mps__pass mps__pass_first_conditions = {.name = "first_conditions",
                                               .hook = MPS_SOURCE,
                                               .stage = MPS_STAGE_OPERATORS,
-                                              .everywhere = true,
+                                              .with_ghosts = true,
                                               .flat = true,
                                               .use_count = 2,
                                               .uses = condition_uses,

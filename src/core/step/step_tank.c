@@ -121,7 +121,7 @@ const mps__pass mps__pass_tank = {.name = "tank",
                                   .hook = MPS_MOTION,
                                   .place = MPS__AFTER_MODELS,
                                   .stage = MPS_STAGE_OPERATORS,
-                                  .everywhere = true,
+                                  .with_ghosts = true,
                                   .flat = true,
                                   .use_count = 3,
                                   .uses = tank_uses,
@@ -162,8 +162,8 @@ static void take_jump(void *step, const double *most)
 void mps__step_note_jump(mps_stage *s, const double *acceleration)
 {
     mps__step *q = mps__step_of(s);
-    mps__host_max_later(&q->w->host, s->view, 1, &raise_accelerations, &(jump_fields){acceleration},
-                        (mps__then){take_jump, q});
+    mps__runner_max_deferred(&q->w->runner, s->view, 1, &raise_accelerations,
+                             &(jump_fields){acceleration}, (mps__then){take_jump, q});
 }
 
 static mps_status note_jump(mps_stage *s)
@@ -193,8 +193,8 @@ mps_status mps__step_place_solids(mps__world *w)
     mps__work *k = &w->work;
     const int64_t count = s->n * s->dim;
     mps__channel *list = w->channels.list;
-    k->bodies = mps__plan_has_writer(&w->host.plan, MPS__SOLID_PLACE) ||
-                mps__plan_has_writer(&w->host.plan, MPS__SOLID_AREA);
+    k->bodies = mps__plan_has_writer(&w->runner.plan, MPS__SOLID_PLACE) ||
+                mps__plan_has_writer(&w->runner.plan, MPS__SOLID_AREA);
     list[MPS__SOLID_PLACE].array.host = list[MPS__SOLID_AREA].array.host = NULL; /* the fields */
     if (!k->bodies) return MPS_OK;
     MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF));
@@ -234,12 +234,12 @@ MPS_ROW void turn_row(const int dim, const mps_view *v, const turn_fields *f, in
 MPS_ROWS(turn_rows, turn_row, turn_fields)
 
 /* Area vectors in the lab have an array of their own if the tank is rotated. */
-mps_status mps__step_turn_areas(mps__world *w)
+mps_status mps__step_rotate_areas(mps__world *w)
 {
     const mps__particles *s = &w->particles;
     mps__work *k = &w->work;
     k->area = s->area;
-    if (!mps__motion_turned(&w->motion.now)) return MPS_OK;
+    if (!mps__motion_rotated(&w->motion.now)) return MPS_OK;
     MPS__TRY(mps__grow(w->context, (void **)&k->turned, &k->turned_capacity, 0, s->n * w->setup.dim,
                        sizeof *k->turned));
     k->area = k->turned;
@@ -253,11 +253,11 @@ void mps__step_find_areas(mps__world *w)
     if (w->work.area == s->area) return;
     mps__world_view(w, &v);
     v.area = s->area; /* the rotated ones are computed here */
-    w->host.everywhere = true;
-    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    w->runner.with_ghosts = true;
+    mps__memory_set_space(&w->runner.memory, MPS__ON_DEVICE);
     const turn_fields f = {mps__seen(w, MPS__FIELD_AREA),
-                           mps__given_list(w, MPS__TURNED_AREAS, w->work.turned)};
-    mps__host_rows(&w->host, &v, &turn_rows, &f);
-    mps__twins_go(&w->host.twins, MPS__ON_HOST);
-    w->host.everywhere = false;
+                           mps__given_list(w, MPS__ROTATED_AREAS, w->work.turned)};
+    mps__runner_rows(&w->runner, &v, &turn_rows, &f);
+    mps__memory_set_space(&w->runner.memory, MPS__ON_HOST);
+    w->runner.with_ghosts = false;
 }

@@ -91,13 +91,13 @@ static void show(const mps__voids *v, mps_voids *out)
 
 int mps_stage_voids(mps_stage *s, const mps_voids_config *config, mps_voids *voids)
 {
-    mps__host *h = s->host;
+    mps__runner *h = s->host;
     mps_voids_config own;
     mps_voids found;
     if (s->hook < MPS_PREPARE)
         return mps_stage_fail(s, "mps_stage_voids() was called before MPS_PREPARE: regions of "
                                  "particles are not known yet");
-    mps__host_take(s); /* the algorithm runs on the host */
+    mps__runner_switch_to_host(s); /* the algorithm runs on the host */
     mps__world *w = ((mps__step *)h->step)->w;
     mps_status status = read_config(h->context, w->setup.dim, config, &own);
     if (status == MPS_OK) status = mps__struct_check(h->context, "mps_voids", voids);

@@ -8,17 +8,17 @@ static bool is_written_last(const mps__world *w, const mps__field *f)
 {
     const mps__particles *s = &w->particles;
     const void *const data = f->data;
-    return data == &s->load || data == &s->held || data == &s->ref || data == &s->area;
+    return data == &s->load || data == &s->active || data == &s->ref || data == &s->area;
 }
 
 /* Fields that calls write; the step itself keeps the old positions. A device can fail in each loop
  * and each copy, up to the last. */
 static bool is_kept(mps__world *w, const mps__field *f)
 {
-    if (w->host.twins.step && (f->data == (void **)&w->particles.x || is_written_last(w, f)))
+    if (w->runner.memory.step && (f->data == (void **)&w->particles.x || is_written_last(w, f)))
         return true;
     return f->data != (void **)&w->particles.x &&
-           mps__plan_writes(&w->host.plan, &w->channels, &w->particles, f);
+           mps__plan_writes(&w->runner.plan, &w->channels, &w->particles, f);
 }
 
 static size_t bytes_of(const mps__world *w, const mps__field *f)
@@ -37,7 +37,7 @@ mps_status mps__undo_keep(mps__world *w)
         if (!is_kept(w, f)) continue;
         MPS__TRY(mps__array_keep(a, w->context, &w->pool.parallel, bytes_of(w, f)));
         if (a->kept_in == MPS__ON_HOST)
-            w->host.plan.outside[MPS__UNDO].bytes += 2.0 * (double)bytes_of(w, f);
+            w->runner.plan.outside[MPS__UNDO].bytes += 2.0 * (double)bytes_of(w, f);
     }
     return MPS_OK;
 }
@@ -57,5 +57,5 @@ mps_status mps__undo_restore(mps__world *w, const double *before)
         memcpy(s->x, before, bytes_of(w, &s->field[MPS__FIELD_POSITION]));
         mps__array_written(x, MPS__ON_HOST);
     }
-    return on_device ? mps__twins_restored(&w->host.twins, w->state.t) : MPS_OK;
+    return on_device ? mps__memory_restored(&w->runner.memory, w->state.t) : MPS_OK;
 }

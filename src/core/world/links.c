@@ -7,10 +7,10 @@ static bool may_belong(const mps__world *w, int64_t dummy, int64_t wall)
 {
     const mps__particles *s = &w->particles;
     if (!mps__is_shadow(s, dummy)) return true;
-    const mps__screen *screen = &w->lists.screens.list[s->plate[dummy] - 1];
+    const mps__occluder *occluder = &w->lists.occluders.list[s->plate[dummy] - 1];
     return s->plate[wall] == s->plate[dummy] &&
-           mps__dot(s->area + wall * s->dim, screen->normal, s->dim) *
-                   mps__screen_height(screen, s->ref + dummy * s->dim) <
+           mps__dot(s->area + wall * s->dim, occluder->normal, s->dim) *
+                   mps__occluder_height(occluder, s->ref + dummy * s->dim) <
                0;
 }
 
@@ -76,5 +76,5 @@ mps_status mps__world_link_walls(mps__world *w)
     link_dummies(w);
     MPS__TRY(mps__world_link_ghosts(w));
     estimate_areas(w);
-    return mps__world_share_areas(w);
+    return mps__world_exchange_areas(w);
 }

@@ -9,7 +9,7 @@ static void set_aside(mps__world *w, int64_t count, int64_t all)
 {
     w->particles.n -= count;
     mps__particles_written(&w->particles);
-    w->ahead.holds = false;
+    w->next_flags.holds = false;
     w->ghosts.known -= count;
     w->particles.generation++;
     w->lists.aside += count;
@@ -116,13 +116,13 @@ MPS_ROW void note_outside(const int dim, const mps_view *v, const box *f, int64_
 MPS_SUMS(any_outside, note_outside, box)
 
 /* Whether any liquid is outside, by a loop on the device of the step. */
-static mps_status look_out_there(mps__world *w, const mps_view *v, const box *b, bool *any)
+static mps_status look_out_device(mps__world *w, const mps_view *v, const box *b, bool *any)
 {
     double most = 0;
-    MPS__TRY(mps__twins_enter(&w->host.twins));
-    mps__host_max(&w->host, v, 1, &any_outside, b, &most);
+    MPS__TRY(mps__memory_enter(&w->runner.memory));
+    mps__runner_max(&w->runner, v, 1, &any_outside, b, &most);
     *any = most > 0;
-    return mps__twins_leave(&w->host.twins);
+    return mps__memory_exit(&w->runner.memory);
 }
 
 mps_status mps__world_leave_domain(mps__world *w)
@@ -130,32 +130,32 @@ mps_status mps__world_leave_domain(mps__world *w)
     box b = {.gone = NULL};
     bool any = true;
     mps_view v;
-    if (w->ahead.holds && !(w->ahead.most[MPS__AHEAD_OUTSIDE] > 0)) return MPS_OK;
+    if (w->next_flags.holds && !(w->next_flags.most[MPS__NEXT_OUTSIDE] > 0)) return MPS_OK;
     MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_REF)); /* solids move in the tank */
     if (!mps__world_domain(w, b.lo, b.hi)) return MPS_OK;
     mps__world_view(w, &v);
-    if (!w->ahead.holds && mps__world_there(w) && !mps__ranks_many(&w->ranks))
-        MPS__TRY(look_out_there(w, &v, &b, &any));
+    if (!w->next_flags.holds && mps__world_on_device(w) && !mps__ranks_many(&w->ranks))
+        MPS__TRY(look_out_device(w, &v, &b, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     b.gone = w->work.gone;
     clear_gone(w);
-    mps__host_rows(&w->host, &v, &outside_rows, &b);
+    mps__runner_rows(&w->runner, &v, &outside_rows, &b);
     return handle_lost(w, w->work.gone, "left the domain");
 }
 
 /* Arguments of the test whether a particle is behind a wall: pairs of the search, and solids in the
  * frame of the tank. */
-typedef struct rims {
+typedef struct boundaries {
     const int64_t *begin, *middle; /* near candidates of a row */
     const int32_t *count;          /* NULL, or numbers of all candidates, which are tested then */
     const int32_t *col, *plate;
-    const uint8_t *rim; /* not 0: the particle may have dummies nearby */
+    const uint8_t *boundary; /* not 0: the particle may have dummies nearby */
     const double *ref, *area;
     bool *gone;
-} rims;
+} boundaries;
 
-MPS_ROW int64_t end_of(const rims *f, int64_t i)
+MPS_ROW int64_t end_of(const boundaries *f, int64_t i)
 {
     return f->count ? f->begin[i] + f->count[i] : f->middle[i];
 }
@@ -172,7 +172,7 @@ MPS_ROW double distance2(const int dim, const mps_view *v, int64_t i, int64_t j)
 
 /* Whether particle i, `r2` from a dummy, is beyond the face of this dummy, and no wall is nearer
  * than the dummy. */
-MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, int64_t dummy,
+MPS_ROW bool behind(const int dim, const mps_view *v, const boundaries *f, int64_t i, int64_t dummy,
                     double r2)
 {
     const mps_tank_pose *k = &v->tank;
@@ -188,7 +188,7 @@ MPS_ROW bool behind(const int dim, const mps_view *v, const rims *f, int64_t i, 
 }
 
 /* Whether particle i touches a wall from behind. */
-MPS_ROW bool spilled(const int dim, const mps_view *v, const rims *f, int64_t i)
+MPS_ROW bool spilled(const int dim, const mps_view *v, const boundaries *f, int64_t i)
 {
     for (int64_t p = f->begin[i]; p < end_of(f, i); p++) {
         const int64_t j = f->col[p];
@@ -199,37 +199,37 @@ MPS_ROW bool spilled(const int dim, const mps_view *v, const rims *f, int64_t i)
     return false;
 }
 
-MPS_ROW void look_behind(const int dim, const mps_view *v, const rims *f, int64_t i)
+MPS_ROW void look_behind(const int dim, const mps_view *v, const boundaries *f, int64_t i)
 {
-    f->gone[i] = f->rim[i] && spilled(dim, v, f, i);
+    f->gone[i] = f->boundary[i] && spilled(dim, v, f, i);
 }
-MPS_ROWS(spilled_rows, look_behind, rims)
+MPS_ROWS(spilled_rows, look_behind, boundaries)
 
 /* Arrays in the memory space of the loops. */
-static rims rims_of(const mps__world *w)
+static boundaries boundaries_of(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
-    return (rims){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
-                  .middle = mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle),
-                  .col = mps__seen_list(w, MPS__ROWS_COLUMNS, l->col),
-                  .plate = mps__seen(w, MPS__FIELD_PLATE),
-                  .rim = mps__seen_list(w, MPS__RIM_ROWS, l->rim),
-                  .ref = mps__seen(w, MPS__FIELD_REF),
-                  .area = mps__seen(w, MPS__FIELD_AREA),
-                  .gone = w->work.gone};
+    return (boundaries){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+                        .middle = mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle),
+                        .col = mps__seen_list(w, MPS__ROWS_COLUMNS, l->col),
+                        .plate = mps__seen(w, MPS__FIELD_PLATE),
+                        .boundary = mps__seen_list(w, MPS__BOUNDARY_ROWS, l->boundary),
+                        .ref = mps__seen(w, MPS__FIELD_REF),
+                        .area = mps__seen(w, MPS__FIELD_AREA),
+                        .gone = w->work.gone};
 }
 
 /* ---- next-step flags ---- */
 
-typedef struct aheads {
+typedef struct flags {
     box box;
-    /* `rim` NULL: rows are not in this memory space, or plates occlude some candidates */
-    rims rims;
+    /* `boundary` NULL: rows are not in this memory space, or plates occlude some candidates */
+    boundaries boundaries;
     const double *searched, *u;
     mps__carry carry;
-} aheads;
+} flags;
 
-MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int64_t i, double *most)
+MPS_ROW void raise_flag(const int dim, const mps_view *v, const flags *f, int64_t i, double *most)
 {
     const double speed = mps__relative2(dim, &f->carry, v->x + i * dim, f->u + i * dim);
     double way = 0;
@@ -237,28 +237,29 @@ MPS_ROW void raise_ahead(const int dim, const mps_view *v, const aheads *f, int6
         const double m = v->x[i * dim + d] - f->searched[i * dim + d];
         way += m * m;
     }
-    if (is_outside(dim, v, &f->box, i)) most[MPS__AHEAD_OUTSIDE] = 1;
-    if (most[MPS__AHEAD_SPILLED] < 1)
-        most[MPS__AHEAD_SPILLED] = !f->rims.rim || (f->rims.rim[i] && spilled(dim, v, &f->rims, i));
-    if (way > most[MPS__AHEAD_WAY]) most[MPS__AHEAD_WAY] = way;
-    if (speed > most[MPS__AHEAD_SPEED]) most[MPS__AHEAD_SPEED] = speed;
+    if (is_outside(dim, v, &f->box, i)) most[MPS__NEXT_OUTSIDE] = 1;
+    if (most[MPS__NEXT_SPILLED] < 1)
+        most[MPS__NEXT_SPILLED] = !f->boundaries.boundary ||
+                                  (f->boundaries.boundary[i] && spilled(dim, v, &f->boundaries, i));
+    if (way > most[MPS__NEXT_WAY]) most[MPS__NEXT_WAY] = way;
+    if (speed > most[MPS__NEXT_SPEED]) most[MPS__NEXT_SPEED] = speed;
 }
-MPS_SUMS(raise_aheads, raise_ahead, aheads)
+MPS_SUMS(raise_flags, raise_flag, flags)
 
-static void take_ahead(void *to, const double *most)
+static void take_flags(void *to, const double *most)
 {
-    memcpy(to, most, MPS__AHEADS * sizeof *most);
+    memcpy(to, most, MPS__NEXT_FLAGS * sizeof *most);
 }
 
-void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS])
+void mps__world_next_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS])
 {
-    aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
-                .u = mps__seen(w, MPS__FIELD_VELOCITY),
-                .carry = mps__motion_carry(&w->motion, pose)};
+    flags f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+               .u = mps__seen(w, MPS__FIELD_VELOCITY),
+               .carry = mps__motion_carry(&w->motion, pose)};
     mps_view v;
-    if (mps__world_rows_there(w) && w->lists.screens.count == 0) {
-        f.rims = rims_of(w);
-        f.rims.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
+    if (mps__world_rows_device(w) && w->lists.occluders.count == 0) {
+        f.boundaries = boundaries_of(w);
+        f.boundaries.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
     }
     for (int d = 0; d < 3; d++) {
         f.box.lo[d] = -INFINITY;
@@ -267,31 +268,31 @@ void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS
     mps__world_domain(w, f.box.lo, f.box.hi);
     mps__world_view(w, &v);
     mps__motion_view(&w->motion, pose, &v.tank);
-    mps__host_max_later(&w->host, &v, MPS__AHEADS, &raise_aheads, &f,
-                        (mps__then){take_ahead, most});
+    mps__runner_max_deferred(&w->runner, &v, MPS__NEXT_FLAGS, &raise_flags, &f,
+                             (mps__then){take_flags, most});
 }
 
 /* ---- behind walls ---- */
 
 /* Whether any liquid is behind a wall, if the device of the step has rows: most steps do not need
  * them on the host. */
-static mps_status look_there(mps__world *w, const mps_view *v, bool *any)
+static mps_status look_device(mps__world *w, const mps_view *v, bool *any)
 {
-    double most[MPS__AHEADS] = {0};
-    MPS__TRY(mps__twins_enter(&w->host.twins));
-    const aheads f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
-                      .u = mps__seen(w, MPS__FIELD_VELOCITY),
-                      .rims = rims_of(w)};
-    mps__host_max(&w->host, v, MPS__AHEADS, &raise_aheads, &f, most);
-    *any = most[MPS__AHEAD_SPILLED] > 0;
-    return mps__twins_leave(&w->host.twins);
+    double most[MPS__NEXT_FLAGS] = {0};
+    MPS__TRY(mps__memory_enter(&w->runner.memory));
+    const flags f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
+                     .u = mps__seen(w, MPS__FIELD_VELOCITY),
+                     .boundaries = boundaries_of(w)};
+    mps__runner_max(&w->runner, v, MPS__NEXT_FLAGS, &raise_flags, &f, most);
+    *any = most[MPS__NEXT_SPILLED] > 0;
+    return mps__memory_exit(&w->runner.memory);
 }
 
 /* Whether the last step has found none, and its rows are still valid. */
 static bool is_told(const mps__world *w)
 {
-    return w->ahead.holds && w->ahead.searches == w->lists.neighbours.searches &&
-           w->ahead.most[MPS__AHEAD_SPILLED] == 0;
+    return w->next_flags.holds && w->next_flags.searches == w->lists.neighbours.searches &&
+           w->next_flags.most[MPS__NEXT_SPILLED] == 0;
 }
 
 /* Remove liquid that has flowed over the edge of an open tank and touches its walls from behind: it
@@ -302,13 +303,14 @@ mps_status mps__world_leave_tank(mps__world *w)
     mps_view v;
     mps__world_view(w, &v);
     if (is_told(w)) return MPS_OK;
-    if (mps__world_rows_there(w) && !mps__ranks_many(&w->ranks)) MPS__TRY(look_there(w, &v, &any));
+    if (mps__world_rows_device(w) && !mps__ranks_many(&w->ranks))
+        MPS__TRY(look_device(w, &v, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
-    mps__twins_rows_ready(&w->host.twins);
-    MPS__TRY(mps__device_status(&w->host.twins.device));
-    const rims f = rims_of(w);
+    mps__memory_sync_rows(&w->runner.memory);
+    MPS__TRY(mps__device_status(&w->runner.memory.device));
+    const boundaries f = boundaries_of(w);
     clear_gone(w);
-    mps__host_rows(&w->host, &v, &spilled_rows, &f);
+    mps__runner_rows(&w->runner, &v, &spilled_rows, &f);
     return handle_lost(w, w->work.gone, "are behind a wall");
 }

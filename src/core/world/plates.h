@@ -22,6 +22,6 @@ bool mps__plates_hide(const mps__world *w, const double *X, int64_t i);
 int32_t mps__plates_part(const mps__world *w, int64_t i, int d);
 /* 1/2 if particle i is one of two at the same position, the faces of a plate of a single layer,
  * else 1. */
-double mps__plates_share(const mps__world *w, int64_t i);
+double mps__plates_fraction(const mps__world *w, int64_t i);
 
 #endif

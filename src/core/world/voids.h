@@ -56,10 +56,10 @@ typedef struct mps__void_run {
 } mps__void_run;
 
 /* Capacities of the arrays, which are kept from step to step. */
-typedef struct mps__void_room {
+typedef struct mps__void_capacity {
     int64_t mask, space, ullage, offset, place, slab, next, head, taken, sure, wide, what;
     int64_t marks, label, run, parent, found, number, queue, size, face[MPS__VOID_FACE];
-} mps__void_room;
+} mps__void_capacity;
 
 typedef struct mps__voids {
     mps__context *context;
@@ -118,7 +118,7 @@ typedef struct mps__voids {
     int32_t *size; /* [count] */
     int64_t faces;
     int32_t *face[MPS__VOID_FACE]; /* [faces] */
-    mps__void_room room;
+    mps__void_capacity capacity;
 } mps__voids;
 
 void mps__voids_init(mps__voids *v, mps__context *context);
@@ -148,7 +148,7 @@ int32_t mps__voids_root(int32_t *parent, int32_t k);
 /* Union of two components. @return whether they were different */
 bool mps__voids_join(int32_t *parent, int32_t a, int32_t b);
 /* Capacity for one more element of a list. */
-mps_status mps__voids_push(mps__voids *v, int32_t **list, int64_t *room, int64_t used);
+mps_status mps__voids_push(mps__voids *v, int32_t **list, int64_t *capacity, int64_t used);
 
 /* Coordinates of a cell. */
 static inline void mps__voids_place(const mps__voids *v, int64_t cell, int32_t at[3])

@@ -18,13 +18,13 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     mps__neighbours_init(&w->lists.neighbours, context, dim, dp);
     mps__neighbours_init(&w->lists.complete, context, dim, dp);
     w->lists.complete.skin = 0; /* searched at each request */
-    mps__screens_init(&w->lists.screens, context, dim);
-    w->lists.neighbours.screens = w->lists.complete.screens = &w->lists.screens;
+    mps__occluders_init(&w->lists.occluders, context, dim);
+    w->lists.neighbours.occluders = w->lists.complete.occluders = &w->lists.occluders;
     mps__ppe_init(&w->ppe, context);
     mps__bounds_init(&w->bounds, context);
     mps__voids_init(&w->voids, context);
     w->state.jump.since = INT32_MAX;
-    w->ahead.flow = w->booked = -1;
+    w->next_flags.flow = w->booked = -1;
     mps__motion_init(&w->motion, context, dim);
     MPS__TRY(mps__particles_init(&w->particles, context, dim));
     w->lists.neighbours.parallel = w->lists.complete.parallel = w->particles
@@ -32,18 +32,18 @@ mps_status mps__world_init(mps__world *w, mps__context *context, int32_t dim, do
     w->lists.neighbours.shared = w->lists.complete
                                      .shared = w->ppe.scratch = w->particles.scratch = &w->scratch;
     mps__channels_init(&w->channels, context, dim);
-    w->host = (mps__host){.context = context,
-                          .models = &w->models,
-                          .channels = &w->channels,
-                          .particles = &w->particles,
-                          .scratch = &w->scratch,
-                          .parallel = &w->pool.parallel,
-                          .ghosts = &w->ghosts,
-                          .phase_defined = w->setup.phase_defined,
-                          .densities = {.versions = -1},
-                          .sets = {.context = context}};
-    mps__twins_init(&w->host.twins, &w->channels, &w->particles, &w->pool.parallel);
-    mps__plan_init(&w->host.plan, passes, pass_count);
+    w->runner = (mps__runner){.context = context,
+                              .models = &w->models,
+                              .channels = &w->channels,
+                              .particles = &w->particles,
+                              .scratch = &w->scratch,
+                              .parallel = &w->pool.parallel,
+                              .ghosts = &w->ghosts,
+                              .phase_defined = w->setup.phase_defined,
+                              .densities = {.versions = -1},
+                              .sets = {.context = context}};
+    mps__memory_init(&w->runner.memory, &w->channels, &w->particles, &w->pool.parallel);
+    mps__plan_init(&w->runner.plan, passes, pass_count);
     mps__ranks_init(&w->ranks, context);
     mps__ghosts_init(&w->ghosts, context, &w->ranks, &w->particles);
     MPS__TRY(mps__models_init(&w->models, context, &w->channels, &w->particles));
@@ -67,14 +67,14 @@ void mps__world_spacing(mps__world *w, double dp)
 
 void mps__world_free(mps__world *w)
 {
-    mps__solvers_leave(&w->solvers, &w->host.twins.device);
-    mps__ppe_leave(&w->ppe, &w->host.twins.device);
-    mps__ghosts_leave(&w->ghosts);
-    mps__twins_free(&w->host.twins);
+    mps__solvers_release_device(&w->solvers, &w->runner.memory.device);
+    mps__ppe_release_device(&w->ppe, &w->runner.memory.device);
+    mps__ghosts_release_device(&w->ghosts);
+    mps__memory_free(&w->runner.memory);
     mps__particles_free(&w->particles);
     mps__neighbours_free(&w->lists.neighbours);
     mps__neighbours_free(&w->lists.complete);
-    mps__screens_free(&w->lists.screens);
+    mps__occluders_free(&w->lists.occluders);
     mps__models_free(&w->models);
     mps__solvers_free(&w->solvers);
     mps__ppe_free(&w->ppe);
@@ -83,8 +83,8 @@ void mps__world_free(mps__world *w)
     mps__motion_free(&w->motion);
     mps__channels_free(&w->channels);
     mps__free(w->context, w->work.gone);
-    mps__free(w->context, w->host.entry);
-    mps__free(w->context, w->host.leaves);
+    mps__free(w->context, w->runner.entry);
+    mps__free(w->context, w->runner.leaves);
     mps__free(w->context, w->work.turned);
     mps__free(w->context, w->work.placed);
     mps__free(w->context, w->lists.listed_at);
@@ -95,7 +95,7 @@ void mps__world_free(mps__world *w)
     mps__free(w->context, w->mass.a);
     mps__scratch_free(w->context, &w->scratch);
     mps__pool_free(&w->pool);
-    mps__sets_free(&w->host.sets);
+    mps__sets_free(&w->runner.sets);
     mps__ghosts_free(&w->ghosts);
     mps__ranks_free(&w->ranks);
 }
@@ -140,13 +140,13 @@ double mps__world_speed(mps__world *w)
 {
     mps_view v;
     double most = 0;
-    if (w->ahead.holds) return sqrt(w->ahead.most[MPS__AHEAD_SPEED]);
+    if (w->next_flags.holds) return sqrt(w->next_flags.most[MPS__NEXT_SPEED]);
     mps__world_view(w, &v);
-    mps__twins_go(&w->host.twins, MPS__ON_DEVICE);
+    mps__memory_set_space(&w->runner.memory, MPS__ON_DEVICE);
     const speeds f = {mps__seen(w, MPS__FIELD_VELOCITY),
                       mps__motion_carry(&w->motion, &w->motion.now)};
-    mps__host_max(&w->host, &v, 1, &raise_speeds, &f, &most);
-    mps__twins_go(&w->host.twins, MPS__ON_HOST);
+    mps__runner_max(&w->runner, &v, 1, &raise_speeds, &f, &most);
+    mps__memory_set_space(&w->runner.memory, MPS__ON_HOST);
     return sqrt(most);
 }
 
@@ -204,7 +204,7 @@ mps_status mps__world_reserve(mps__world *w)
     return w->particles.n <= k->capacity
                ? MPS_OK
                : mps__grow(w->context, (void **)&k->gone, &k->capacity, 0,
-                           mps__room(w->particles.n, k->capacity), sizeof *k->gone);
+                           mps__capacity_for(w->particles.n, k->capacity), sizeof *k->gone);
 }
 
 /* After solids were added or removed: link dummies to walls, estimate wall areas, and set the
@@ -218,8 +218,8 @@ static mps_status link_solids(mps__world *w)
     mps__neighbours_hide(&w->lists.neighbours);
     MPS__TRY(mps__world_stencil(w, MPS_NEAR, &near));
     MPS__TRY(mps_op_number_density(&near, w->particles.nd));
-    MPS__TRY(mps__ghosts_share(
-        &w->ghosts, &(mps__shared){.values = w->particles.nd, .bytes = sizeof *w->particles.nd},
+    MPS__TRY(mps__ghosts_exchange(
+        &w->ghosts, &(mps__halo_array){.values = w->particles.nd, .bytes = sizeof *w->particles.nd},
         1));
     w->lists.linked = w->particles.solids;
     w->lists.links++;
@@ -244,7 +244,7 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
     if (sorted) mps__neighbours_sorted(&w->lists.neighbours, s->n);
     choose_rows(w, all);
     /* rows of the last lists, which may be newer on the device */
-    mps__twins_rows_drop(&w->host.twins);
+    mps__memory_rows_drop(&w->runner.memory);
     return mps__neighbours_search(&w->lists.neighbours, s->n, s->x, w->setup.re_near,
                                   w->setup.re_far);
 }
@@ -252,13 +252,13 @@ static mps_status search_lists(mps__world *w, bool sorted, bool all)
 /* Search without idle solids, on the host or on the device of the step, and apply occlusion. */
 static mps_status search_active(mps__world *w, bool sorted)
 {
-    bool there = false;
+    bool on_device = false;
     choose_rows(w, false);
-    if (sorted) MPS__TRY(mps__world_search_there(w, &there));
-    if (!there) MPS__TRY(mps__world_fetch(w));
-    if (!there) MPS__TRY(search_lists(w, sorted, false));
+    if (sorted) MPS__TRY(mps__world_search_device(w, &on_device));
+    if (!on_device) MPS__TRY(mps__world_fetch(w));
+    if (!on_device) MPS__TRY(search_lists(w, sorted, false));
     MPS__TRY(mps__plates_find(w));
-    if (there) return mps__world_hide_there(w);
+    if (on_device) return mps__world_hide_device(w);
     mps__neighbours_hide(&w->lists.neighbours);
     return MPS_OK;
 }
@@ -350,7 +350,7 @@ static mps_status renew(mps__world *w)
         MPS__TRY(mps__world_divide(w));
         return search(w, true);
     }
-    if (wanted[WRITTEN]) MPS__TRY(mps__world_share_written(w));
+    if (wanted[WRITTEN]) MPS__TRY(mps__world_exchange_written(w));
     return mps__world_rows(w);
 }
 
@@ -364,11 +364,12 @@ mps_status mps__world_neighbours_populated(mps__world *w)
 {
     enum { PARTICLES, LOOKS, THINGS };
     MPS__TRY(mps__world_adopt(w));
-    bool things[THINGS] = {[PARTICLES] = w->particles.n > 0, [LOOKS] = !w->ahead.holds}, any = true;
+    bool things[THINGS] = {[PARTICLES] = w->particles.n > 0, [LOOKS] = !w->next_flags.holds},
+         any = true;
     mps__world_any(w, THINGS, things);
-    w->ahead.holds = !things[LOOKS]; /* if one rank has to compute them, all do */
+    w->next_flags.holds = !things[LOOKS]; /* if one rank has to compute them, all do */
     MPS__CHECK(w->context, things[PARTICLES], "there are no particles");
-    if (!mps__world_there(w)) MPS__TRY(mps__world_fetch(w));
+    if (!mps__world_on_device(w)) MPS__TRY(mps__world_fetch(w));
     MPS__TRY(mps__world_reserve(w));
     mps_status status = mps__world_leave_domain(w);
     any = w->particles.n > 0 || w->lists.gone == 0;

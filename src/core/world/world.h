@@ -5,7 +5,7 @@
 
 #include "bounds.h"
 #include "ghosts.h"
-#include "host.h"
+#include "runner.h"
 #include "motion.h"
 #include "neighbours.h"
 #include <math.h>
@@ -118,7 +118,7 @@ typedef struct mps__lists {
     mps_neighbours neighbours;
     /* includes rows of solids without fluid in reach; built on demand, empty during a step */
     mps_neighbours complete;
-    mps__screens screens; /* thin plates, in the tank's frame */
+    mps__occluders occluders; /* thin plates, in the tank's frame */
     /* NULL, or positions [n*dim] of a search whose candidates are valid, but have to be
      * recomputed */
     double *listed_at;
@@ -136,22 +136,23 @@ typedef struct mps__lists {
  * domain, whether any is behind a wall, the square of the largest displacement since the search,
  * the square of the largest speed. Valid for the same particles and the same search. */
 enum {
-    MPS__AHEAD_OUTSIDE,
-    MPS__AHEAD_SPILLED, /* -INFINITY: not known */
-    MPS__AHEAD_WAY,
-    MPS__AHEAD_SPEED,
-    MPS__AHEADS
+    MPS__NEXT_OUTSIDE,
+    MPS__NEXT_SPILLED, /* -INFINITY: not known */
+    MPS__NEXT_WAY,
+    MPS__NEXT_SPEED,
+    MPS__NEXT_FLAGS
 };
-typedef struct mps__ahead {
-    double most[MPS__AHEADS];
-    /* mps__particles_flow() and mps_neighbours.searches at the end of the step; flow -1: no flags */
+typedef struct mps__next_flags {
+    double most[MPS__NEXT_FLAGS];
+    /* mps__particles_flow() and mps_neighbours.searches at the end of the step; flow -1: no
+     * flags */
     int64_t flow, searches;
     bool holds; /* the flags are valid in the step in progress */
-} mps__ahead;
+} mps__next_flags;
 
-/* The store of this rank while rank 0 has the particles of all ranks; gather.h. */
+/* The store of this rank while rank 0 has the particles of all ranks; collect.h. */
 typedef struct mps__collected {
-    bool begun; /* the user called mps_particles_gather() */
+    bool begun; /* the user called mps_particles_collect() */
     bool swapped;
     void *array[MPS__FIELDS_MAX]; /* of the fields */
     int64_t n, capacity;
@@ -201,11 +202,11 @@ typedef struct mps__world {
     int32_t threads; /* of the pool */
     mps__ranks ranks;
     mps__ghosts ghosts;
-    mps__collected gathered;
+    mps__collected collected;
     mps__balance balance;
     mps__models models;
     mps__channels channels;
-    mps__host host;
+    mps__runner runner;
     mps__solvers solvers;
     mps__ppe ppe;
     mps__bounds bounds;
@@ -215,7 +216,7 @@ typedef struct mps__world {
     mps__load load;
     mps__mass mass;
     bool ending; /* dt_max of a step is the rest of a run */
-    mps__ahead ahead;
+    mps__next_flags next_flags;
     /* mps__particles_flow() when the last step summed state.budget.last */
     int64_t booked;
 } mps__world;
@@ -245,8 +246,8 @@ mps_status mps__world_fetch_lists(const mps__world *w);
 mps_status mps__world_fetch_searched(const mps__world *w);
 /* Whether a step begins on the device; whether the device also has the lists of the last search.
  * world_rows.c */
-bool mps__world_there(const mps__world *w);
-bool mps__world_rows_there(const mps__world *w);
+bool mps__world_on_device(const mps__world *w);
+bool mps__world_rows_device(const mps__world *w);
 /* Whether the candidates of the last search are still valid. world_rows.c */
 mps_status mps__world_fresh(mps__world *w, bool *fresh);
 /* The view of the present particles, without pairs. */
@@ -256,8 +257,8 @@ void mps__world_view(const mps__world *w, mps_view *v);
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Capacity for all particles in the arrays of a step that are not channels. */
 mps_status mps__world_reserve(mps__world *w);
-/* Request the next-step flags, with the tank at a pose; valid after mps__host_settle(). lost.c */
-void mps__world_look_ahead(mps__world *w, const mps__pose *pose, double most[MPS__AHEADS]);
+/* Request the next-step flags, with the tank at a pose; valid after mps__runner_flush(). lost.c */
+void mps__world_next_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS]);
 /* Remove fluid outside of the domain, or behind walls, by the policy. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);
@@ -268,36 +269,36 @@ mps_status mps__world_neighbours_kept(mps__world *w);
 /* Exact rows at the present positions from valid candidates; on the device of the step, if it has
  * them. world_rows.c */
 mps_status mps__world_rows(mps__world *w);
-/* The order by cells: in the list, and, if a device made it, in its memory, `there`; NULL: made on
- * the host. world_rows.c */
-mps_status mps__world_order(mps__world *w, const int32_t **there);
+/* The order by cells: in the list, and, if a device made it, in its memory, `on_device`; NULL:
+ * made on the host. world_rows.c */
+mps_status mps__world_order(mps__world *w, const int32_t **on_device);
 /* Search on the device of the step, for particles in cell order; `found` false: search on the host.
  * The second function applies occlusion. world_rows.c */
-mps_status mps__world_search_there(mps__world *w, bool *found);
-mps_status mps__world_hide_there(mps__world *w);
+mps_status mps__world_search_device(mps__world *w, bool *found);
+mps_status mps__world_hide_device(mps__world *w);
 /* The stencil of one radius from those lists. */
 mps_status mps__world_stencil(const mps__world *w, int32_t which, mps_stencil *stencil);
 /* Mirror the arrays of those lists, and rotated wetted areas, on the device of a step that
  * begins. */
-mps_status mps__world_lists_twins(mps__world *w);
+mps_status mps__world_mirror_lists(mps__world *w);
 /* Address of a field, MPS__FIELD_..., in the memory space of the loops, for loops that read it; for
  * loops that overwrite all of it. */
 static inline void *mps__seen(const mps__world *w, int32_t field)
 {
-    return mps__twins_seen((mps__twins *)&w->host.twins, field);
+    return mps__memory_read((mps__memory *)&w->runner.memory, field);
 }
 static inline void *mps__given(mps__world *w, int32_t field)
 {
-    return mps__twins_given(&w->host.twins, field);
+    return mps__memory_write(&w->runner.memory, field);
 }
 /* Address of a list, MPS__ROWS_... and so on, whose array on the host is `host`. */
 static inline void *mps__seen_list(const mps__world *w, int32_t list, const void *host)
 {
-    return mps__twins_list_seen((mps__twins *)&w->host.twins, list, host);
+    return mps__memory_list_seen((mps__memory *)&w->runner.memory, list, host);
 }
 static inline void *mps__given_list(mps__world *w, int32_t list, void *host)
 {
-    return mps__twins_list_given(&w->host.twins, list, host, true);
+    return mps__memory_list_given(&w->runner.memory, list, host, true);
 }
 /* A stencil with the rows of all particles, from valid lists. */
 mps_status mps__world_stencil_all(mps__world *w, int32_t which, mps_stencil *stencil);

@@ -4,10 +4,10 @@
 #include <string.h>
 
 /* Error text, with the time of the state that could not be copied. */
-static mps_status tell(const mps__world *w, mps_status status)
+static mps_status report(const mps__world *w, mps_status status)
 {
     char why[MPS__ERROR_SIZE];
-    if (status >= 0 || w->host.twins.gone[0] || w->host.twins.step) return status;
+    if (status >= 0 || w->runner.memory.lost[0] || w->runner.memory.step) return status;
     memcpy(why, w->context->error, sizeof why);
     return mps__fail(w->context, status,
                      "t = %.9g s: %.300s; the fields of the particles are there alone: try again, "
@@ -17,12 +17,12 @@ static mps_status tell(const mps__world *w, mps_status status)
 
 mps_status mps__world_fetch(const mps__world *w)
 {
-    return tell(w, mps__twins_fetch((mps__twins *)&w->host.twins));
+    return report(w, mps__memory_fetch((mps__memory *)&w->runner.memory));
 }
 
 mps_status mps__world_fetch_field(const mps__world *w, int32_t field)
 {
-    return tell(w, mps__twins_fetch_field((mps__twins *)&w->host.twins, field));
+    return report(w, mps__memory_fetch_field((mps__memory *)&w->runner.memory, field));
 }
 
 mps_status mps__world_write_field(mps__world *w, int32_t field)
@@ -34,10 +34,10 @@ mps_status mps__world_write_field(mps__world *w, int32_t field)
 
 mps_status mps__world_fetch_searched(const mps__world *w)
 {
-    return tell(w, mps__twins_fetch_searched((mps__twins *)&w->host.twins));
+    return report(w, mps__memory_fetch_searched((mps__memory *)&w->runner.memory));
 }
 
 mps_status mps__world_fetch_lists(const mps__world *w)
 {
-    return tell(w, mps__twins_fetch_lists((mps__twins *)&w->host.twins));
+    return report(w, mps__memory_fetch_lists((mps__memory *)&w->runner.memory));
 }

@@ -135,46 +135,46 @@ mps_status mps__world_link_ghosts(mps__world *w)
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
     for (int64_t i = 0; i < s->n; i++)
         s->wall_id[i] = s->kind[i] == MPS_DUMMY && s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;
-    MPS__TRY(mps__ghosts_share(
-        &w->ghosts, &(mps__shared){.values = s->wall_id, .bytes = sizeof *s->wall_id}, 1));
+    MPS__TRY(mps__ghosts_exchange(
+        &w->ghosts, &(mps__halo_array){.values = s->wall_id, .bytes = sizeof *s->wall_id}, 1));
     return mps__world_find_walls(w);
 }
 
 /* ---- halo exchange and migration ---- */
 
-mps_status mps__world_share_areas(mps__world *w)
+mps_status mps__world_exchange_areas(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    return mps__ghosts_share(
-        &w->ghosts, &(mps__shared){.values = s->area, .bytes = (size_t)s->dim * sizeof *s->area},
-        1);
+    return mps__ghosts_exchange(
+        &w->ghosts,
+        &(mps__halo_array){.values = s->area, .bytes = (size_t)s->dim * sizeof *s->area}, 1);
 }
 
-mps_status mps__world_share_step(mps__world *w)
+mps_status mps__world_exchange_step(mps__world *w)
 {
     mps__particles *s = &w->particles;
-    mps__twins *t = &w->host.twins;
+    mps__memory *t = &w->runner.memory;
     const mps__array *load = mps__channels_of(&w->channels, s, MPS__WALL_PRESSURE);
-    mps__shared shared[1 + MPS__FIELDS_MAX];
+    mps__halo_array shared[1 + MPS__FIELDS_MAX];
     int32_t count = 0;
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
-    if (!mps__array_ghosts_valid(load)) shared[count++] = mps__twins_shared(t, MPS__WALL_PRESSURE);
+    if (!mps__array_ghosts_valid(load)) shared[count++] = mps__memory_halo(t, MPS__WALL_PRESSURE);
     for (int32_t k = 0; k < s->fields; k++)
         if (!mps__array_ghosts_valid(&s->field[k].array))
-            shared[count++] = mps__twins_shared_field(t, k);
-    return mps__ghosts_share_at(&w->ghosts, &t->device, shared, count);
+            shared[count++] = mps__memory_halo_field(t, k);
+    return mps__ghosts_exchange_at(&w->ghosts, &t->device, shared, count);
 }
 
-mps_status mps__world_share_written(mps__world *w)
+mps_status mps__world_exchange_written(mps__world *w)
 {
     const mps__particles *s = &w->particles;
-    mps__shared shared[MPS__FIELDS_MAX];
+    mps__halo_array shared[MPS__FIELDS_MAX];
     int32_t count = 0;
     if (!mps__ranks_many(&w->ranks)) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     for (int32_t k = 0; k < s->fields; k++)
-        if (s->field[k].is_public) shared[count++] = mps__twins_shared_field(&w->host.twins, k);
-    return mps__ghosts_share(&w->ghosts, shared, count);
+        if (s->field[k].is_public) shared[count++] = mps__memory_halo_field(&w->runner.memory, k);
+    return mps__ghosts_exchange(&w->ghosts, shared, count);
 }
 
 mps_status mps__world_divide(mps__world *w)
@@ -182,20 +182,20 @@ mps_status mps__world_divide(mps__world *w)
     mps__particles *s = &w->particles;
     mps_neighbours *l = &w->lists.neighbours;
     const mps__placing p = placing(w);
-    const int32_t *there;
+    const int32_t *on_device;
     if (mps__ranks_many(&w->ranks)) {
         MPS__TRY(mps__world_fetch(w)); /* particles migrate between hosts */
-        mps__twins_forget(&w->host.twins);
+        mps__memory_forget(&w->runner.memory);
     }
     MPS__TRY(mps__ghosts_renew(&w->ghosts, &p, w->lists.aside));
-    mps__host_all_alike(&w->host);
-    MPS__TRY(mps__world_order(w, &there));
+    mps__runner_all_alike(&w->runner);
+    MPS__TRY(mps__world_order(w, &on_device));
     MPS__TRY(mps__ghosts_ordered(&w->ghosts, l->order));
     MPS__TRY(mps__particles_permute_reserve(s, s->n));
-    bool moved[MPS__FIELDS_MAX], old[MPS__FIELDS_MAX];
-    MPS__TRY(mps__twins_permute(&w->host.twins, l->order, there, moved, old));
-    MPS__TRY(mps__particles_reorder(s, s->n, l->order, old));
-    mps__twins_permuted(&w->host.twins, moved);
+    bool moved[MPS__FIELDS_MAX], stale[MPS__FIELDS_MAX];
+    MPS__TRY(mps__memory_permute(&w->runner.memory, l->order, on_device, moved, stale));
+    MPS__TRY(mps__particles_reorder(s, s->n, l->order, stale));
+    mps__memory_permuted(&w->runner.memory, moved);
     l->ghost = w->ghosts.ghost;
     w->lists.orders++;
     return mps__ranks_many(&w->ranks) ? mps__world_find_walls(w) : MPS_OK;
@@ -216,7 +216,7 @@ mps_status mps__world_replace(mps__world *w, int64_t n, const void *const from[]
         s->field[s->fields - 1].trails = true;
     }
     const mps_status status = mps__particles_replace(s, n, all);
-    if (status == MPS_OK) mps__twins_forget(&w->host.twins);
+    if (status == MPS_OK) mps__memory_forget(&w->runner.memory);
     if (status < 0 && travels) mps__particles_field_drop(s);
     if (status < 0 || !mps__ranks_many(&w->ranks)) return status;
     for (int64_t i = 0; i < n; i++) s->wall_id[i] = s->wall_of[i] >= 0 ? s->id[s->wall_of[i]] : -1;

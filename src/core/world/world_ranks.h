@@ -34,11 +34,11 @@ mps_status mps__world_divide(mps__world *w);
 mps_status mps__world_link_ghosts(mps__world *w);
 /* Indices of dummies' walls from their ids. */
 mps_status mps__world_find_walls(mps__world *w);
-mps_status mps__world_share_areas(mps__world *w);
+mps_status mps__world_exchange_areas(mps__world *w);
 /* Halo exchange at the end of a step: positions and all changed fields. */
-mps_status mps__world_share_step(mps__world *w);
+mps_status mps__world_exchange_step(mps__world *w);
 /* Halo exchange of all fields that the user may have written. */
-mps_status mps__world_share_written(mps__world *w);
+mps_status mps__world_exchange_written(mps__world *w);
 /* Particles with a property: their number, and the one with the least id. */
 typedef struct mps__found {
     int64_t count, id; /* id: INT64_MAX without any */

@@ -235,10 +235,10 @@ static mps_status find_cuts(grid *g, mps__contour *out)
         for (int d = 0; d < g->dim; d++) {
             if (k[d] + 1 >= g->n[d]) continue;
             const bool here = g->value[i] > 0, there = g->value[i + step_along(g, d)] > 0;
-            bool rim = false; /* true: fewer than four cells around it */
+            bool border = false; /* true: fewer than four cells around it */
             for (int e = 0; e < g->dim; e++)
-                rim = rim || (e != d && (k[e] == 0 || k[e] + 1 >= g->n[e]));
-            if (here == there || rim) continue;
+                border = border || (e != d && (k[e] == 0 || k[e] + 1 >= g->n[e]));
+            if (here == there || border) continue;
             const cut c = {i, d, there ? 1 : -1};
             MPS__TRY(add_cut(g, out, &c));
         }

@@ -233,9 +233,9 @@ static void middle_of(const mps__mesh *m, const side *s, double out[3])
 }
 
 /* Edge normals, and faults of the `count` triangles at one edge. Points of open edges are marked in
- * `rim`. */
+ * `border`. */
 static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_faults *faults,
-                         unsigned char *rim)
+                         unsigned char *border)
 {
     double sum[3] = {0, 0, 0};
     int64_t balance = 0;
@@ -249,7 +249,7 @@ static void look_at_edge(mps__mesh *m, const side *s, int64_t count, mps__mesh_f
     for (int64_t k = 0; k < count; k++)
         memcpy(m->edge_normal + 3 * (int64_t)s[k].place, sum, sizeof sum);
     if (balance == 0) return;
-    rim[s->low] = rim[s->high] = 1;
+    border[s->low] = border[s->high] = 1;
     if (count % 2 == 1 && faults->open++ == 0) middle_of(m, s, faults->open_at);
     if (count % 2 == 0 && faults->turned++ == 0) middle_of(m, s, faults->turned_at);
 }
@@ -275,7 +275,7 @@ static void add_point_normals(mps__mesh *m)
     }
 }
 
-static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned char *rim)
+static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned char *border)
 {
     mps__free(m->context, m->edge_normal);
     m->edge_normal = mps__alloc(m->context, 9 * m->elements, sizeof *m->edge_normal);
@@ -286,7 +286,7 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned
              next < 3 * m->elements && s[next].low == s[k].low && s[next].high == s[k].high;
              next++) {
         }
-        look_at_edge(m, s + k, next - k, faults, rim);
+        look_at_edge(m, s + k, next - k, faults, border);
     }
     mps__free(m->context, s);
     return MPS_OK;
@@ -294,8 +294,8 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned
 
 /* ---- gaps ---- */
 
-/* Merge points of `rim` with the first near one. @param number  [points] out: new index */
-static mps_status find_near(const mps__mesh *m, const unsigned char *rim, double tolerance,
+/* Merge points of `border` with the first near one. @param number  [points] out: new index */
+static mps_status find_near(const mps__mesh *m, const unsigned char *border, double tolerance,
                             int32_t *number, mps__mesh_faults *faults)
 {
     double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -315,7 +315,7 @@ static mps_status find_near(const mps__mesh *m, const unsigned char *rim, double
     for (int64_t i = 0; i < m->points && status == MPS_OK; i++) {
         double r;
         number[i] = (int32_t)i;
-        if (!rim[i]) continue;
+        if (!border[i]) continue;
         const int64_t near = mps__buckets_nearest(&kept, m->x + 3 * i, tolerance, &r);
         if (near < 0) {
             point[kept.count] = (int32_t)i;
@@ -331,12 +331,12 @@ static mps_status find_near(const mps__mesh *m, const unsigned char *rim, double
     return status;
 }
 
-static mps_status close_gaps(mps__mesh *m, const unsigned char *rim, double tolerance,
+static mps_status close_gaps(mps__mesh *m, const unsigned char *border, double tolerance,
                              mps__mesh_faults *faults)
 {
     int32_t *number = mps__alloc(m->context, m->points, sizeof *number);
     if (!number) return MPS_E_NOMEM;
-    const mps_status status = find_near(m, rim, tolerance, number, faults);
+    const mps_status status = find_near(m, border, tolerance, number, faults);
     for (int64_t k = 0; status == MPS_OK && k < 3 * m->elements; k++)
         m->corner[k] = number[m->corner[k]];
     mps__free(m->context, number);
@@ -346,16 +346,16 @@ static mps_status close_gaps(mps__mesh *m, const unsigned char *rim, double tole
 
 static mps_status look_at_surface(mps__mesh *m, double tolerance, mps__mesh_faults *faults)
 {
-    unsigned char *rim = mps__alloc(m->context, m->points, 1);
-    if (!rim) return MPS_E_NOMEM;
+    unsigned char *border = mps__alloc(m->context, m->points, 1);
+    if (!border) return MPS_E_NOMEM;
     mps_status status = remove_twice(m, &faults->twice);
-    if (status == MPS_OK) status = look_at_edges(m, faults, rim);
+    if (status == MPS_OK) status = look_at_edges(m, faults, border);
     if (status == MPS_OK && faults->open > 0 && tolerance > 0) {
-        status = close_gaps(m, rim, tolerance, faults);
+        status = close_gaps(m, border, tolerance, faults);
         faults->open = faults->turned = 0;
-        if (status == MPS_OK) status = look_at_edges(m, faults, rim);
+        if (status == MPS_OK) status = look_at_edges(m, faults, border);
     }
-    mps__free(m->context, rim);
+    mps__free(m->context, border);
     return status;
 }
 

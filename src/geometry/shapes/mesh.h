@@ -60,8 +60,8 @@ double mps__mesh_area(const mps__mesh *m);
 void mps__mesh_turn(mps__mesh *m);
 /* Edges of a welded surface in 3-D where faces meet at more than an angle, in the order of their
  * triangles.
- * @param ends  [6*room] two end points of each of the first edges @return how many there are */
-int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t room, double *ends);
+ * @param ends  [6*capacity] two end points of each of the first edges @return how many there are */
+int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t capacity, double *ends);
 /* Build the tree; call it before the first distance. */
 mps_status mps__mesh_finish(mps__mesh *m);
 /* Distance to the surface, > 0 on the side of the normals. `foot`: the nearest point on it; `n`:

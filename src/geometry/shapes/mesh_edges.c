@@ -13,14 +13,14 @@ static bool is_sharp(const double sum[3], double angle)
     return sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2] < most * most;
 }
 
-int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t room, double *ends)
+int64_t mps__mesh_edges(const mps__mesh *m, double angle, int64_t capacity, double *ends)
 {
     int64_t count = 0;
     for (int64_t k = 0; k < 3 * m->elements; k++) {
         const int32_t a = m->corner[k], b = m->corner[k % 3 == 2 ? k - 2 : k + 1];
         /* each edge once: the triangle on its other side has it from b to a */
         if (a > b || !is_sharp(m->edge_normal + 3 * k, angle)) continue;
-        if (count < room) {
+        if (count < capacity) {
             memcpy(ends + 6 * count, m->x + 3 * (int64_t)a, 3 * sizeof *ends);
             memcpy(ends + 6 * count + 3, m->x + 3 * (int64_t)b, 3 * sizeof *ends);
         }

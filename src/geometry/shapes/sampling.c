@@ -13,12 +13,13 @@ enum { SWEEPS = 40, ROUNDS = 4, ODD = 4 };
 /* In spacings: distance to existing particles, and the part of the surface that they occupy; first
  * distance tried for thinning, and its limits; range and length of the repulsion; half the width of
  * a gap that gets a particle, in 2-D and 3-D. */
-static const double room = 0.7, beside = 0.5, widest = 0.9, longest = 1.1, narrowest = 0.6,
+static const double clearance = 0.7, beside = 0.5, widest = 0.9, longest = 1.1, narrowest = 0.6,
                     step = 0.02, range = 1.6, push = 0.35, hole[2] = {0.5, 0.7};
 /* Target number of wall particles, relative to the surface over dp^(dim-1). */
 static const double least = 0.98, most = 1.05;
 /* Distance of dummies to walls and to each other; depth to which a wall must be solid. */
-static const double wall_room = 0.7, layer_room = 0.75, gap_room = 0.8, thin_depth = 2.99;
+static const double wall_clearance = 0.7, layer_clearance = 0.75, gap_clearance = 0.8,
+                    thin_depth = 2.99;
 
 static bool is_kept(const mps__samples *s, const double x[3])
 {
@@ -49,7 +50,7 @@ static mps_status take_vertices(mps__samples *s, int32_t feature, int32_t odd, d
     for (int64_t k = 0; k < s->contour->vertices; k++) {
         const mps__vertex *v = &s->contour->vertex[k];
         if (v->feature != feature || v->odd != odd || !is_kept(s, v->x)) continue;
-        if (s->others && mps__buckets_nearest(s->others, v->x, room * dp, NULL) >= 0) continue;
+        if (s->others && mps__buckets_nearest(s->others, v->x, clearance * dp, NULL) >= 0) continue;
         if (mps__buckets_nearest(&s->wall, v->x, distance * dp, NULL) < 0) MPS__TRY(add_wall(s, v));
     }
     return MPS_OK;
@@ -63,7 +64,7 @@ static mps_status take_patch(mps__samples *s, int64_t k, double distance)
     memcpy(v.x, s->contour->patch[k].x, sizeof v.x);
     if (!is_kept(s, v.x) || mps__buckets_nearest(&s->wall, v.x, distance * dp, NULL) >= 0)
         return MPS_OK;
-    if (s->others && mps__buckets_nearest(s->others, v.x, room * dp, NULL) >= 0) return MPS_OK;
+    if (s->others && mps__buckets_nearest(s->others, v.x, clearance * dp, NULL) >= 0) return MPS_OK;
     return mps__shape_project(s->shape, v.x, dp) ? add_wall(s, &v) : MPS_OK;
 }
 
@@ -262,8 +263,8 @@ mps_status mps__samples_walls(mps__samples *s, const double *lo, const double *h
 static mps_status offer_dummy(mps__samples *s, const double x[3], double spacing)
 {
     const double dp = s->shape->dp;
-    if (s->others && mps__buckets_nearest(s->others, x, room * dp, NULL) >= 0) return MPS_OK;
-    if (!is_kept(s, x) || mps__buckets_nearest(&s->wall, x, wall_room * dp, NULL) >= 0)
+    if (s->others && mps__buckets_nearest(s->others, x, clearance * dp, NULL) >= 0) return MPS_OK;
+    if (!is_kept(s, x) || mps__buckets_nearest(&s->wall, x, wall_clearance * dp, NULL) >= 0)
         return MPS_OK;
     if (mps__buckets_nearest(&s->dummy, x, spacing * dp, NULL) >= 0) return MPS_OK;
     return mps__buckets_add(&s->dummy, x);
@@ -279,7 +280,7 @@ static mps_status place_layer(mps__samples *s, int32_t layer)
         mps__shape_true(s->shape, s->wall.x + 3 * i, n);
         for (int d = 0; d < 3; d++) at[d] = s->wall.x[3 * i + d] - layer * dp * n[d];
         const double depth = -mps__shape_true(s->shape, at, NULL);
-        if (fabs(depth - layer * dp) < 0.3 * dp) MPS__TRY(offer_dummy(s, at, layer_room));
+        if (fabs(depth - layer * dp) < 0.3 * dp) MPS__TRY(offer_dummy(s, at, layer_clearance));
     }
     return MPS_OK;
 }
@@ -295,7 +296,7 @@ static mps_status fill_gaps(mps__samples *s, int32_t layers, const mps__distance
         if (lattice->value[k] > -0.5 * dp || lattice->value[k] < -(layers + 0.5) * dp) continue;
         mps__distances_place(lattice, k, x);
         if (mps__buckets_nearest(&s->wall, x, reach, NULL) >= 0)
-            MPS__TRY(offer_dummy(s, x, gap_room));
+            MPS__TRY(offer_dummy(s, x, gap_clearance));
     }
     return MPS_OK;
 }

@@ -71,7 +71,7 @@ static void report_size(mps_sim *sim, const mps_tank *tank, const mps__tank_latt
     static const char axis[3] = {'x', 'y', 'z'};
     if (l->dp != dp)
         mps__log(&sim->context, MPS_LOG_INFO,
-                 "tank \"%s\": dp is %g m in place of %g m, so that whole cells fill the tank",
+                 "tank \"%s\": dp is %g m instead of %g m, so that whole cells fill the tank",
                  tank->name, l->dp, dp);
     for (int d = 0; d < 3; d++) {
         const double size = (double)l->cells[d] * l->h[d];

@@ -152,7 +152,7 @@ static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
     }
 }
 
-static void tell_notes(mps__context *c, const char *path, const mps__stl_notes *n)
+static void log_notes(mps__context *c, const char *path, const mps__stl_notes *n)
 {
     if (n->tail > 0)
         mps__log(c, MPS_LOG_WARNING, "\"%.200s\": %lld bytes behind the last triangle are ignored",
@@ -160,8 +160,8 @@ static void tell_notes(mps__context *c, const char *path, const mps__stl_notes *
     if (n->no_end) mps__log(c, MPS_LOG_WARNING, "\"%.200s\" has no \"endsolid\" at its end", path);
 }
 
-static void tell_faults(mps__context *c, const char *path, const mps__mesh_faults *f,
-                        double tolerance)
+static void log_faults(mps__context *c, const char *path, const mps__mesh_faults *f,
+                       double tolerance)
 {
     if (f->degenerate > 0)
         mps__log(c, MPS_LOG_INFO, "\"%.200s\": %lld triangles have no area", path,
@@ -178,7 +178,7 @@ static void tell_faults(mps__context *c, const char *path, const mps__mesh_fault
 }
 
 /* Log possible mistakes: thick walls, several tanks in one file, overlapping parts. */
-static mps_status tell_shells(const mps__mesh *m, const char *path, bool container)
+static mps_status log_shells(const mps__mesh *m, const char *path, bool container)
 {
     mps__context *c = m->context;
     mps__mesh_shells s;
@@ -223,8 +223,8 @@ static mps_status prepare_mesh(mps_sim *sim, mps__mesh *m, const char *path, boo
                "at (%g, %g, %g) m",
                path, (long long)f.turned, f.turned_at[0], f.turned_at[1], f.turned_at[2]);
     const double volume = mps__mesh_volume(m);
-    tell_faults(c, path, &f, tolerance);
-    MPS__TRY(tell_shells(m, path, container));
+    log_faults(c, path, &f, tolerance);
+    MPS__TRY(log_shells(m, path, container));
     if (volume < 0) mps__log(c, MPS_LOG_INFO, "\"%.200s\" is inside out: turned over", path);
     if ((volume < 0) != container) mps__mesh_turn(m);
     return mps__mesh_finish(m);
@@ -276,7 +276,7 @@ mps_status mps_stl_add(mps_sim *sim, const char *path, const mps_stl *stl, doubl
     s.name = name;
     mps__mesh_init(&mesh, &sim->context, 3);
     mps_status status = mps__stl_read(&mesh, path, &notes);
-    if (status == MPS_OK) tell_notes(&sim->context, path, &notes);
+    if (status == MPS_OK) log_notes(&sim->context, path, &notes);
     if (status == MPS_OK) status = add_mesh(sim, path, &s, &mesh, box);
     mps__mesh_free(&mesh);
     if (status == MPS_OK && built) memcpy(built, box, sizeof box);
@@ -298,7 +298,7 @@ static mps_status find_edges(mps_sim *sim, const char *path, const mps_stl *s, m
 }
 
 mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, double angle,
-                         int64_t room, double *ends, int64_t *count)
+                         int64_t capacity, double *ends, int64_t *count)
 {
     MPS__READS(sim);
     mps_stl s = stl_defaults;
@@ -308,12 +308,12 @@ mps_status mps_stl_edges(mps_sim *sim, const char *path, const mps_stl *stl, dou
     if (s.scale == 0) s.scale = stl_defaults.scale;
     MPS__TRY(check_stl(sim, path, &s));
     MPS__CHECK(c, angle >= 0 && angle <= MPS__PI, "angle is %g rad: must be 0..pi", angle);
-    MPS__CHECK(c, room >= 0 && (ends || room == 0), "room is %lld, or ends is NULL",
-               (long long)room);
+    MPS__CHECK(c, capacity >= 0 && (ends || capacity == 0), "capacity is %lld, or ends is NULL",
+               (long long)capacity);
     MPS__CHECK(c, count, "count is NULL");
     mps__mesh_init(&mesh, c, 3);
     const mps_status status = find_edges(sim, path, &s, &mesh);
-    if (status == MPS_OK) *count = mps__mesh_edges(&mesh, angle, room, ends);
+    if (status == MPS_OK) *count = mps__mesh_edges(&mesh, angle, capacity, ends);
     mps__mesh_free(&mesh);
     return status;
 }

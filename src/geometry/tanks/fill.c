@@ -156,7 +156,7 @@ static double points_wanted(const mps__lattice_plan *p, double *given)
         const double share = wanted_share(p, k);
         if (share == 0 || !mps__lattice_plan_open(p, k, state)) continue;
         if (state != POINT_SOLID) *given += share;
-        wanted += share * mps__lattice_plan_share(p, k, 0.5, share);
+        wanted += share * mps__lattice_plan_fraction(p, k, 0.5, share);
     } while (mps__lattice_plan_next(p, k));
     return wanted;
 }
@@ -269,7 +269,7 @@ mps_status mps__geometry_fill(mps_sim *sim, const mps__fill *fill, mps__lattice_
                               int64_t *added)
 {
     mps__lattice_plan p;
-    MPS__TRY(mps__slots_tell(sim));
+    MPS__TRY(mps__slots_log(sim));
     mps__lattice_plan_init(&p, sim, box);
     p.choose = fluid_choose;
     p.describe = fluid_describe;

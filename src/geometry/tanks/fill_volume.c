@@ -142,8 +142,8 @@ static double half_way(const mps__lattice_plan *p, const int64_t k[3], int axis,
     return p->sim->lattice_of_solids && last ? 1.5 : 0.5;
 }
 
-double mps__lattice_plan_share(const mps__lattice_plan *p, const int64_t k[3], double least,
-                               double height)
+double mps__lattice_plan_fraction(const mps__lattice_plan *p, const int64_t k[3], double least,
+                                  double height)
 {
     const double limit = (least + 1e-6) * p->sim->world.setup.dp;
     double X[3] = {0, 0, 0}, reach[3][2], size = 1;

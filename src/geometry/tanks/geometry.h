@@ -49,7 +49,7 @@ mps_status mps__geometry_baffle(mps_sim *sim, const char *name, const mps__latti
 bool mps__plate_of_box(mps_sim *sim, const mps__lattice_box *box, mps__plate_shape *shape);
 mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_shape *shape);
 /* Log a warning about slots too narrow for liquid, once for all existing solids. */
-mps_status mps__slots_tell(mps_sim *sim);
+mps_status mps__slots_log(mps_sim *sim);
 /* Region to fill: the requested corners [dim], or `inside`; whether the volume of the corners is
  * kept beside solids of any shape. */
 typedef struct mps__fill {

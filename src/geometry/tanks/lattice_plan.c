@@ -62,17 +62,17 @@ static void mark_taken(mps__lattice_plan *p)
 bool mps__plate_covers(const mps_sim *sim, const double *X)
 {
     static const double least = 0.7; /* [dp] */
-    const mps__screens *s = &sim->world.lists.screens;
+    const mps__occluders *s = &sim->world.lists.occluders;
     for (int32_t m = 0; m < s->count; m++)
         if (s->list[m].axis < 0 &&
-            mps__screen_distance(&s->list[m], X) < least * sim->world.setup.dp)
+            mps__occluder_distance(&s->list[m], X) < least * sim->world.setup.dp)
             return true;
     return false;
 }
 
 static void mark_plates(mps__lattice_plan *p)
 {
-    const mps__screens *s = &p->sim->world.lists.screens;
+    const mps__occluders *s = &p->sim->world.lists.occluders;
     int64_t k[3] = {p->box.first[0], p->box.first[1], p->box.first[2]}, place = 0;
     bool any = false;
     for (int32_t m = 0; m < s->count; m++) any = any || s->list[m].axis < 0;

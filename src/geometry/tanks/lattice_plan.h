@@ -55,8 +55,8 @@ bool mps__plate_covers(const mps_sim *sim, const double *X);
 mps_status mps__lattice_plan_choose(mps__lattice_plan *p);
 /* Fraction of the cell of a point that is `least` spacings or more from solids of any shape; of the
  * cell only the lower part `height`, 0..1. More than 1 where the lattice ends before the solid. */
-double mps__lattice_plan_share(const mps__lattice_plan *p, const int64_t k[3], double least,
-                               double height);
+double mps__lattice_plan_fraction(const mps__lattice_plan *p, const int64_t k[3], double least,
+                                  double height);
 /* Whether fluid can be near a point: it is free, or covered by a solid of any shape that does not
  * fill its cell. */
 bool mps__lattice_plan_open(const mps__lattice_plan *p, const int64_t k[3], int state);

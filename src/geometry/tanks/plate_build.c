@@ -377,9 +377,9 @@ static mps_status cast_shadows(builder *b)
 
 /* ---- whole plate ---- */
 
-static void set_screen(const builder *b, mps__screen *s)
+static void set_occluder(const builder *b, mps__occluder *s)
 {
-    *s = (mps__screen){
+    *s = (mps__occluder){
         .axis = b->shape.axis, .part = b->part, .columns = b->shape.columns, .active = true};
     memcpy(s->corner, b->shape.corner, sizeof s->corner);
     memcpy(s->normal, b->shape.normal, sizeof s->normal);
@@ -446,19 +446,19 @@ static mps_status build(builder *b, const char *name)
     restore_area(b);
     MPS__TRY(cast_shadows(b));
     for (int64_t k = 0; k < b->place_count; k++) fresh += b->places[k].resident < 0;
-    MPS__TRY(mps__screens_reserve(&w->lists.screens));
+    MPS__TRY(mps__occluders_reserve(&w->lists.occluders));
     MPS__TRY(mps__particles_reserve(&w->particles, fresh));
     int64_t next = mps__particles_append(&w->particles, fresh, MPS_WALL);
     for (int64_t k = 0; k < b->place_count; k++)
         put(b, &b->places[k], b->places[k].resident < 0 ? next++ : b->places[k].resident);
-    mps__screen screen;
-    set_screen(b, &screen);
-    mps__screens_add(&w->lists.screens, &screen);
+    mps__occluder occluder;
+    set_occluder(b, &occluder);
+    mps__occluders_add(&w->lists.occluders, &occluder);
     w->lists.neighbours.valid = false;
     return MPS_OK;
 }
 
-static void tell_closed(const builder *b, const char *name)
+static void log_closed(const builder *b, const char *name)
 {
     for (int e = 0; e < b->dim - 1; e++)
         for (int end = 0; end < 2; end++) {
@@ -481,9 +481,9 @@ mps_status mps__geometry_plate(mps_sim *sim, const char *name, const mps__plate_
                  .shape = *shape,
                  .dim = sim->world.setup.dim,
                  .dp = sim->world.setup.dp,
-                 .number = sim->world.lists.screens.count + 1};
+                 .number = sim->world.lists.occluders.count + 1};
     const mps_status status = build(&b, name);
-    if (status >= 0) tell_closed(&b, name);
+    if (status >= 0) log_closed(&b, name);
     mps__free(&sim->context, b.residents);
     mps__free(&sim->context, b.places);
     if (status < 0) sim->world.particles.parts = parts;

@@ -75,7 +75,7 @@ static bool fits(const search *q, const double X[3], const double P[3])
            !mps__plate_covers(q->sim, P) && (q->sim->solids == 0 || !mps__solid_covers(q->sim, P));
 }
 
-static bool has_room(const search *q, const double X[3])
+static bool has_space(const search *q, const double X[3])
 {
     enum { WIDE = 4 };
     const mps_sim *sim = q->sim;
@@ -143,7 +143,7 @@ static mps_status find(search *q)
         q->width = most;
         q->opposite = -1;
         mps__buckets_visit(&q->walls, X, reach, keep_facing, q);
-        if (q->opposite >= 0 && !has_room(q, X)) keep_slot(q, i, X);
+        if (q->opposite >= 0 && !has_space(q, X)) keep_slot(q, i, X);
     }
     return MPS_OK;
 }
@@ -166,13 +166,13 @@ static void report(const search *q)
                  SLOTS);
 }
 
-mps_status mps__slots_tell(mps_sim *sim)
+mps_status mps__slots_log(mps_sim *sim)
 {
     search q = {.sim = sim};
-    if (sim->slots_told == sim->world.particles.solids) return MPS_OK;
+    if (sim->slots_logged == sim->world.particles.solids) return MPS_OK;
     const mps_status status = find(&q);
     if (status == MPS_OK) {
-        sim->slots_told = sim->world.particles.solids;
+        sim->slots_logged = sim->world.particles.solids;
         report(&q);
     }
     mps__buckets_free(&q.walls);

@@ -168,7 +168,7 @@ export class Charts {
     }
 
     makeChart(g, place) {
-        const box = document.createElement("figure"), head = document.createElement("figcaption"), room = document.createElement("div"), legend = document.createElement("div");
+        const box = document.createElement("figure"), head = document.createElement("figcaption"), panel = document.createElement("div"), legend = document.createElement("div");
         const real = g.series.filter((s) => !s.reference), start = this.skip;
         const known = real.flatMap((s) => s.values.filter((v, i) => v !== null && v !== undefined && g.t[i] >= start));
         const most = known.reduce((m, v) => Math.max(m, Math.abs(v)), 0), [factor, p] = prefix(most, g.unit);
@@ -185,26 +185,26 @@ export class Charts {
             head.append(note);
         }
         for (const s of g.place === "forces" ? real : []) this.tellMean(head, s, g, start);
-        room.setAttribute("role", "img");
-        room.setAttribute("aria-label", `${g.title}: ` + real.map((s) => {
+        panel.setAttribute("role", "img");
+        panel.setAttribute("aria-label", `${g.title}: ` + real.map((s) => {
             let high = -Infinity, at = 0;
             s.values.forEach((v, i) => { if (v > high && g.t[i] >= start) [high, at] = [v, g.t[i]]; });
             return Number.isFinite(high) ? `${s.label} at most ${quantity(high, g.unit)} at ${quantity(at, "s")}` : s.label;
         }).join("; "));
-        box.append(head, room, legend);
+        box.append(head, panel, legend);
         place.append(box);
         head.append(saveButtons([["CSV", "table of the curves", () => saveCurves(g)], ["PNG", "picture of the plot", () => savePicture(chart)]]));
-        const chart = {g, box, room, legend, factor, p, most, hidden: new Set(), head: head.firstChild.textContent, colour: (s, k) => this.colour(g, s, k)};
-        chart.plot = new uPlot(this.options(chart), [g.t, ...g.series.map((s) => s.values)], room);
+        const chart = {g, box, panel, legend, factor, p, most, hidden: new Set(), head: head.firstChild.textContent, colour: (s, k) => this.colour(g, s, k)};
+        chart.plot = new uPlot(this.options(chart), [g.t, ...g.series.map((s) => s.values)], panel);
         chart.line = document.createElement("div");
         chart.line.className = "now";
         chart.plot.over.append(chart.line);
         this.placeTime(chart);
         chart.buttons = g.series.map((s, k) => this.legendButton(chart, s, k));
         new ResizeObserver(() => {
-            const width = room.clientWidth;
+            const width = panel.clientWidth;
             if (width > 50 && Math.abs(width - chart.plot.width) > 1) chart.plot.setSize({width, height: chart.plot.height});
-        }).observe(room);
+        }).observe(panel);
         return chart;
     }
 
@@ -220,9 +220,9 @@ export class Charts {
     }
 
     options(chart) {
-        const {g, factor, room} = chart, ink = tokens("--ink-2"), grid = tokens("--line"), axis = {stroke: ink, grid: {stroke: grid, width: 1}, ticks: {stroke: grid, width: 1}, font: "12px system-ui, sans-serif"};
+        const {g, factor, panel} = chart, ink = tokens("--ink-2"), grid = tokens("--line"), axis = {stroke: ink, grid: {stroke: grid, width: 1}, ticks: {stroke: grid, width: 1}, font: "12px system-ui, sans-serif"};
         return {
-            width: Math.max(200, room.clientWidth), height: 204, legend: {show: false}, padding: [8, 12, 0, 0],
+            width: Math.max(200, panel.clientWidth), height: 204, legend: {show: false}, padding: [8, 12, 0, 0],
             cursor: {sync: {key: "time", setSeries: false}, drag: {x: true, y: false}, points: {size: 7}, bind: {dblclick: () => () => { this.setRange(null); return null; }}},
             scales: {x: {time: false}, y: {range: (u, lo, hi) => this.yRange(u, chart)}},
             series: [{}, ...g.series.map((s, k) => ({
@@ -267,8 +267,8 @@ export class Charts {
             }
         });
         if (!(hi >= lo)) return [0, 1];
-        const room = (hi - lo || Math.abs(hi) || 1) * 0.06;
-        return [lo - (lo === 0 ? 0 : room), hi + room];
+        const margin = (hi - lo || Math.abs(hi) || 1) * 0.06;
+        return [lo - (lo === 0 ? 0 : margin), hi + margin];
     }
 
     legendButton(chart, s, k) {

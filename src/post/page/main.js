@@ -2,7 +2,7 @@
 // Puts the page together: film, curves, sketch, one time for all.
 import { Frames, fromBase64, inflate } from "./decode.js";
 import { Charts, exportTables, nearest, prefix, quantity, readGroups, rounded } from "./curves.js";
-import { View, kinds, rooms } from "./view.js";
+import { View, kinds, pockets } from "./view.js";
 
 const byId = (id) => document.getElementById(id), json = (id) => JSON.parse(byId(id)?.textContent ?? "null");
 const state = {charts: null, view: null, frame: 0, playing: false, picked: -1, data: json("film-data"), pace: 1};
@@ -95,16 +95,16 @@ function fillPaces() {
 const speedIn = () => state.data.speed_in ? ` in ${state.data.speed_in}` : "";
 
 function drawScale() {
-    const {data, view} = state, mode = byId("colour").value, room = byId("scale"), maps = mode === "speed" ? 1 : Math.min(3, data.phases);
+    const {data, view} = state, mode = byId("colour").value, panel = byId("scale"), maps = mode === "speed" ? 1 : Math.min(3, data.phases);
     const css = (c) => `rgb(${c.map((v) => Math.round(255 * v)).join(" ")})`;
-    room.replaceChildren();
+    panel.replaceChildren();
     if (mode === "phase") {
         for (let k = 0; k < data.phases; k++) {
             const chip = document.createElement("span"), name = state.phases?.[k]?.name;
             chip.className = "chip";
             chip.style.setProperty("--chip", css(kinds[Math.min(k, 3)]));
             chip.textContent = name ?? (k === 0 ? "liquid (phase 0)" : `phase ${k}`);
-            room.append(chip);
+            panel.append(chip);
         }
         return;
     }
@@ -113,9 +113,9 @@ function drawScale() {
             const chip = document.createElement("span"), numbers = [];
             for (let n = c; c > 0 && n <= data.pockets && numbers.length < 3; n += 4) numbers.push(n);
             chip.className = "chip";
-            chip.style.setProperty("--chip", css(c ? rooms[c - 1] : kinds[0]));
+            chip.style.setProperty("--chip", css(c ? pockets[c - 1] : kinds[0]));
             chip.textContent = c ? `pocket ${numbers.join(", ")}${data.pockets >= c + 12 ? " .." : ""}` : "beside no pocket";
-            room.append(chip);
+            panel.append(chip);
         }
         view.canvas.setAttribute("aria-label", `Film of ${data.count} particles, coloured by the pocket of gas beside them`);
         return;
@@ -137,7 +137,7 @@ function drawScale() {
         ticks.append(tick);
     }
     bars.append(ticks);
-    room.append(label, bars);
+    panel.append(label, bars);
     view.canvas.setAttribute("aria-label", `Film of ${data.count} particles, coloured by ${mode}`);
 }
 

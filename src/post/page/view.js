@@ -17,7 +17,7 @@ uniform mat4 camera;
 uniform int mode, walls;
 uniform vec3 map[15];
 uniform vec3 kinds[5];
-uniform vec3 rooms[4];
+uniform vec3 pockets[4];
 uniform vec3 wallColour;
 uniform float wallAlpha;
 out vec4 colour;
@@ -36,8 +36,8 @@ void main() {
     bool body = walls == 1 || kind == 255;
     if (walls == 0 && pressure < 0.5) gl_Position = vec4(2.0, 2.0, 2.0, 1.0); // not in this frame
     float code = mode == 1 ? speed : pressure;
-    int room = int(pocket + 0.5);
-    vec3 c = mode == 3 && room > 0 ? rooms[(room - 1) % 4] : mode >= 2 ? kinds[min(kind, 3)] : shade(mode == 1 ? 0 : kind % 3, (code - 1.0) / 223.0);
+    int number = int(pocket + 0.5);
+    vec3 c = mode == 3 && number > 0 ? pockets[(number - 1) % 4] : mode >= 2 ? kinds[min(kind, 3)] : shade(mode == 1 ? 0 : kind % 3, (code - 1.0) / 223.0);
     colour = body ? vec4(wallColour, wallAlpha) : vec4(c, 1.0);
 }`;
 const fragmentText = `#version 300 es
@@ -315,7 +315,7 @@ export class View {
         gl.uniform1i(at.solid, solid ? 1 : 0);
         gl.uniform3fv(at.map, data.maps.flat(2));
         gl.uniform3fv(at.kinds, kinds.flat());
-        gl.uniform3fv(at.rooms, rooms.flat());
+        gl.uniform3fv(at.pockets, pockets.flat());
         gl.uniform3fv(at.wallColour, [0.55, 0.55, 0.58]);
         gl.uniform1f(at.wallAlpha, 1);
         this.drawDots(this.dots, data, 0, this.radius());
@@ -385,4 +385,4 @@ export class View {
 // Colours of phases: water, gas, two others.
 export const kinds = [[0.13, 0.44, 0.71], [0.83, 0.77, 0.94], [0.86, 0.37, 0.09], [0.30, 0.60, 0.35], [0.55, 0.55, 0.58]];
 // Colours of pockets of gas, in turn.
-export const rooms = [[0.86, 0.37, 0.09], [0.93, 0.73, 0.13], [0.45, 0.18, 0.55], [0.20, 0.62, 0.42]];
+export const pockets = [[0.86, 0.37, 0.09], [0.93, 0.73, 0.13], [0.45, 0.18, 0.55], [0.20, 0.62, 0.42]];

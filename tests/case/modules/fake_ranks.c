@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-/* Values of ranks that agree, and of a rank that ends; see mps.c and mps_job_ranks_leave(). */
+/* Values of ranks that agree, and of a rank that ends; see mps.c and mps_job_ranks_exit(). */
 enum { AGREE = 2, LEAVE = 3 };
 
 static int rank, count = 1, code = -1, heard = 1;
