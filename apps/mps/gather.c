@@ -15,10 +15,15 @@
 
 enum { RUNS_MOST = 100000, UNIT_SIZE = 16, VARIED_MOST = 64 };
 
+/* An input of a run. */
+typedef struct input {
+    char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
+} input;
+
 typedef struct gathered_run {
     char *folder;
     int32_t inputs;
-    summary_input *input;
+    input *input;
 } gathered_run;
 
 typedef struct collection {
@@ -128,8 +133,15 @@ static bool find_varied(collection *g)
 {
     for (int32_t i = 0; i < g->runs; i++) {
         gathered_run *r = &g->run[i];
-        r->inputs = summary_inputs(r->folder, &r->input);
-        if (r->inputs < 0) return false;
+        char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
+        for (int32_t k = 0; summary_input(r->folder, k, key, value); k++) {
+            input *grown = mps__grown(r->input, k, sizeof *grown);
+            if (!grown) return false;
+            r->input = grown;
+            snprintf(grown[k].key, SUMMARY_TEXT, "%s", key);
+            snprintf(grown[k].value, SUMMARY_TEXT, "%s", value);
+            r->inputs++;
+        }
     }
     for (int32_t i = 0; i < g->runs; i++)
         for (int32_t k = 0; k < g->run[i].inputs; k++) {

@@ -1,78 +1,88 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "summary.h"
 #include "constants.h"
-#include "json.h"
-#include "run_file.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 4096, SUMMARY_MOST = 64 << 20 };
+enum { PATH_SIZE = 4096, LINE_SIZE = 4096 };
 
-/* @return NULL: there is none that can be read */
-static json_value *read_summary(const char *folder)
+/* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end of the line. */
+static bool find_text(const char *folder, const char *wanted, int most, char out[LINE_SIZE])
 {
-    char path[PATH_SIZE];
-    const char *why;
-    size_t size;
-    json_error error;
+    char path[PATH_SIZE], line[LINE_SIZE];
+    bool found = false;
+    const size_t length = strlen(wanted);
     snprintf(path, sizeof path, "%s/summary.json", folder);
-    FILE *file = mps__run_open(NULL, path, &why);
-    char *text = file ? mps__file_read(file, SUMMARY_MOST, &size) : NULL;
-    json_value *all = text ? mps__json_read(text, &error) : NULL;
-    free(text);
-    if (file) fclose(file);
-    return all;
+    FILE *in = fopen(path, "r");
+    while (in && !found && fgets(line, sizeof line, in)) {
+        const char *at = line + strspn(line, " ");
+        found = at - line <= most && strncmp(at, wanted, length) == 0;
+        if (found) snprintf(out, LINE_SIZE, "%s", at + length);
+    }
+    if (in) fclose(in);
+    return found;
+}
+
+static bool find_line(const char *folder, const char *key, char out[LINE_SIZE])
+{
+    char wanted[64];
+    snprintf(wanted, sizeof wanted, "\"%s\": ", key);
+    return find_text(folder, wanted, 2, out);
+}
+
+double summary_T1(const char *folder)
+{
+    char line[LINE_SIZE], *end;
+    if (!find_text(folder, "{\"key\": \"T1\", \"value\": \"", 4, line)) return NAN;
+    const double value = strtod(line, &end);
+    return end > line ? value : NAN;
+}
+
+/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not end */
+static const char *unquote(const char *from, char out[SUMMARY_TEXT])
+{
+    size_t used = 0;
+    for (; *from && *from != '"'; from++) {
+        const char c = *from == '\\' && from[1] ? *++from : *from;
+        if (used + 1 < SUMMARY_TEXT) out[used++] = c;
+    }
+    out[used] = '\0';
+    return *from ? from + 1 : NULL;
 }
 
 bool summary_text(const char *folder, const char *key, char out[SUMMARY_TEXT])
 {
-    json_value *all = read_summary(folder);
-    const char *text = mps__json_text(mps__json_get(all, key));
-    const bool found = text != NULL;
-    if (found) snprintf(out, SUMMARY_TEXT, "%s", text);
-    mps__json_free(all);
+    char line[LINE_SIZE];
+    return find_line(folder, key, line) && line[0] == '"' && unquote(line + 1, out);
+}
+
+bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
+                   char value[SUMMARY_TEXT])
+{
+    static const char begin[] = "    {\"key\": \"", middle[] = ", \"value\": \"";
+    char path[PATH_SIZE], line[LINE_SIZE];
+    bool found = false;
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    FILE *in = fopen(path, "r");
+    while (in && !found && fgets(line, sizeof line, in)) {
+        if (strncmp(line, begin, sizeof begin - 1) != 0 || index-- > 0) continue;
+        const char *at = unquote(line + sizeof begin - 1, key);
+        found = at && strncmp(at, middle, sizeof middle - 1) == 0 &&
+                unquote(at + sizeof middle - 1, value);
+        break;
+    }
+    if (in) fclose(in);
     return found;
 }
 
 double summary_number(const char *folder, const char *key)
 {
-    json_value *all = read_summary(folder);
-    const double value = mps__json_number(mps__json_get(all, key));
-    mps__json_free(all);
-    return value;
-}
-
-int32_t summary_inputs(const char *folder, summary_input **inputs)
-{
-    json_value *all = read_summary(folder);
-    const json_value *list = mps__json_get(all, "inputs");
-    const int32_t count = (int32_t)mps__json_count(list);
-    summary_input *out = calloc((size_t)count + 1, sizeof *out);
-    const json_value *v = count > 0 ? list->first : NULL;
-    for (int32_t k = 0; out && k < count; k++, v = v->next) {
-        snprintf(out[k].key, SUMMARY_TEXT, "%s", mps__json_member(v, "key"));
-        snprintf(out[k].value, SUMMARY_TEXT, "%s", mps__json_member(v, "value"));
-    }
-    mps__json_free(all);
-    *inputs = out;
-    return out ? count : -1;
-}
-
-double summary_T1(const char *folder)
-{
-    summary_input *inputs;
-    const int32_t count = summary_inputs(folder, &inputs);
-    double value = NAN;
-    for (int32_t k = 0; k < count; k++) {
-        char *end;
-        if (strcmp(inputs[k].key, "T1") != 0) continue;
-        value = strtod(inputs[k].value, &end);
-        if (end == inputs[k].value) value = NAN;
-    }
-    free(inputs);
-    return value;
+    char line[LINE_SIZE], *end;
+    if (!find_line(folder, key, line)) return NAN;
+    const double value = strtod(line, &end);
+    return end > line ? value : NAN;
 }
 
 bool summary_is_done(const char *folder)

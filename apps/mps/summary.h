@@ -9,17 +9,13 @@
 
 enum { SUMMARY_TEXT = 240 };
 
-/* An input of the case of a run. */
-typedef struct summary_input {
-    char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
-} summary_input;
-
 /* A text. @return false: the folder has no summary.json, or the text is missing */
 bool summary_text(const char *folder, const char *key, char out[SUMMARY_TEXT]);
 /* A number; nan if missing. */
 double summary_number(const char *folder, const char *key);
-/* Inputs of the case, malloc'd. @return their number; -1: out of memory */
-int32_t summary_inputs(const char *folder, summary_input **inputs);
+/* Input number `index` of the case. @return false: there is none */
+bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
+                   char value[SUMMARY_TEXT]);
 /* The first natural period, an input of the summary [s]; nan: it is not known. */
 double summary_T1(const char *folder);
 /* Whether the run reached its end. */

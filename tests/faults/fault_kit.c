@@ -205,7 +205,7 @@ FAULT_AFTER(tree_node *, mps__tree_new, (mps_case * c, tree_kind kind, mps__plac
 FAULT_AFTER(void *, mps__build_alloc, (build * b, size_t size), (b, size), ENOMEM, NULL,
             (b->c->no_memory = true, b->status = MPS_E_NOMEM))
 FAULT(char *, mps__job_copy, (const char *text), (text), ENOMEM, NULL)
-FAULT(void *, mps__job_grown, (void *array, int count, size_t size), (array, count, size), ENOMEM,
+FAULT(void *, mps__grown, (void *array, int64_t count, size_t size), (array, count, size), ENOMEM,
       NULL)
 FAULT_AFTER(bool, mps__view_open, (mps_sim * sim, view *v), (sim, v), ENOMEM, false,
             *v = (view){.x.struct_size = 0})
