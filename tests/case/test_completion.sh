@@ -67,7 +67,8 @@ gives "" mps run lng.yml -j ''
 
 # names
 gives "roll" mps init ro
-for name in $("$program" list cases | cut -d' ' -f1); do gives "$name" mps init "$name"; done
+names=$("$program" list cases | cut -d' ' -f1)
+for name in $names; do gives "$(grep "^$name" <<< "$names" | paste -sd ' ')" mps init "$name"; done
 gives "settings solvers" mps list s
 
 # paths of values: '.' where more follows, '=' where a value does
