@@ -8,7 +8,8 @@
 
 enum { PATH_SIZE = 4096, LINE_SIZE = 4096 };
 
-/* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end of the line. */
+/* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end
+ * of the line. */
 static bool find_text(const char *folder, const char *wanted, int most, char out[LINE_SIZE])
 {
     char path[PATH_SIZE], line[LINE_SIZE];
@@ -40,7 +41,8 @@ double summary_T1(const char *folder)
     return end > line ? value : NAN;
 }
 
-/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not end */
+/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not
+ * end */
 static const char *unquote(const char *from, char out[SUMMARY_TEXT])
 {
     size_t used = 0;
