@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file flux.h  Flux of a pair of the pressure equation. Matrix, right side, pressure gradient and
- *  wall loads take it from here, so that they agree.
+/** @file flux.h  Flux of a pair of the pressure equation. Matrix, right-hand side, pressure
+ *  gradient and wall loads use these functions, so that they are consistent.
  *
  *    flux_ij = k_ij (p_i - p_j + q_ij),   k_ij = 2D/(n0 lambda) s_ij W_ij / rho_ij,
  *    q_ij = rho_ij b_ij.r_ij - jump_ij,   r_ij = x_j - x_i,
  *
- *  s_ij the share of the pair, rho_ij its density, b_ij its body acceleration, jump_ij the pressure
- *  of i above that of j by surface tension. */
+ *  s_ij the weight of the pair, rho_ij its density, b_ij its body acceleration, jump_ij the
+ *  pressure of i minus that of j by surface tension. W22: Wen, Zhao & Wan (2022). */
 #ifndef MPS_FLUX_H
 #define MPS_FLUX_H
 
@@ -14,18 +14,18 @@
 
 MPS_BEGIN_DECLS
 
-/** Arrays that fluxes are made of; borrowed from a stage. */
+/** Arrays from which fluxes are computed; borrowed from a stage. */
 typedef struct mps_flux {
     /** sizeof(mps_flux) */
     uint32_t struct_size;
-    /** 1: pressures are relative to those of a fluid that moves with the tank, b = g - a_tank.
-     *  0: b = 0. */
+    /** 1: pressures relative to those of a fluid that moves with the tank, b = g - a_tank. 0: b =
+     *  0. */
     int32_t body;
     /** [n] */
     const int32_t *kind;
     /** [n] */
     const int32_t *phase;
-    /** [n] "pressure_density", or "density" if no model brings it [kg/m3] */
+    /** [n] "pressure_density", or "density" if no model provides it [kg/m3] */
     const double *density;
     /** [n] "interface_distance" [m], or NULL */
     const double *distance;
@@ -41,8 +41,8 @@ typedef struct mps_flux {
     double wall_factor;
 } mps_flux;
 
-/** Mean density along the line between two particles by their distances from the interface
- *  [kg/m3]; (rho_i + rho_j)/2, W22 (17), where these are not known. distance may be NULL. */
+/** Mean density along the line between two particles by their distances from the interface [kg/m3];
+ *  (rho_i + rho_j)/2, W22 (17), where these are unknown. distance may be NULL. */
 static inline double mps_pair_density(const double *density, const double *distance, int64_t i,
                                       int64_t j)
 {
@@ -76,8 +76,8 @@ static inline double mps_flux_body(const mps_flux *f, int dim, int64_t i, int64_
     return sum;
 }
 
-/** s_ij of two wall particles: each is half a cell, of which the wetted share counts. */
-static inline double mps_flux_wall_share(const mps_flux *f, int64_t i, int64_t j)
+/** s_ij of two wall particles: each is half a cell, weighted by its wetted fraction. */
+static inline double mps_flux_wall_fraction(const mps_flux *f, int64_t i, int64_t j)
 {
     const double a = f->wetted ? f->wetted[i] : 1.0, b = f->wetted ? f->wetted[j] : 1.0;
     return f->wall_factor * (a < b ? a : b);

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file list.h  What there is: presets, models, settings, channels, verbs, solvers,
- *  preconditioners, kernels; built in or registered on the handle. Passes of a step, and what they
- *  cost.
+/** @file list.h  Lists of presets, models, settings, channels, verbs, solvers, preconditioners and
+ *  kernels, built in or registered on the handle; passes of a step and their cost.
  *
- *  All functions named ..._info_get() take an index from 0 and return MPS_E_ARG beyond the last,
+ *  All functions ..._info_get() take an index from 0 and return MPS_E_ARG beyond the last entry,
  *  without an error text: loop until they fail. Texts are valid until models or solvers change. */
 #ifndef MPS_LIST_H
 #define MPS_LIST_H
@@ -16,7 +15,7 @@ MPS_BEGIN_DECLS
 typedef struct mps_model_info {
     /** Set by mps_model_info_init(). */
     uint32_t struct_size;
-    /** 1: switched on */
+    /** 1: active */
     int32_t active;
     /** "slot.variant" */
     const char *name;
@@ -24,7 +23,7 @@ typedef struct mps_model_info {
     const char *help;
     /** Number of settings. */
     int32_t settings;
-    /** Number of channels that it brings. */
+    /** Number of channels that it provides. */
     int32_t channels;
     /** Number of verbs. */
     int32_t verbs;
@@ -50,11 +49,11 @@ typedef struct mps_setting_info {
     double min;
     /** Largest allowed value. */
     double max;
-    /** Present value; the default if the model is not active. */
+    /** Current value; the default if the model is not active. */
     double value;
 } mps_setting_info;
 
-/** A channel: the library's own, or brought by an active model. */
+/** A channel: of the library, or provided by an active model. */
 typedef struct mps_channel_info {
     /** Set by mps_channel_info_init(). */
     uint32_t struct_size;
@@ -74,7 +73,7 @@ typedef struct mps_channel_info {
     uint32_t reads;
     /** Hooks in which verbs may write it. */
     uint32_t writes;
-    /** 1: the library's own. */
+    /** 1: of the library; 0: of a model. */
     int32_t own;
 } mps_channel_info;
 
@@ -88,38 +87,39 @@ typedef struct mps_verb_info {
     const char *hook_name;
     /** Name of the model. */
     const char *model;
-    /** Channels that it uses, "name:r", "name:n" (neighbours), "name:d" (of dummies too), "name:a"
-     *  (and their neighbours), "name:w", "name:rw", "name:nw", with a "?" behind if the channel may
-     *  be missing and a space between two. */
+    /** Channels that it uses, separated by spaces: "name:r" (read), "name:n" (neighbours), "name:d"
+     *  (neighbours of dummies too), "name:a" (neighbours and their neighbours), "name:w" (write),
+     *  "name:rw", "name:nw"; followed by "?" if the channel is optional. */
     const char *uses;
 } mps_verb_info;
 
-/** A pass: a part of a step, in the order in which a step runs them, and what it has cost. The
- *  seconds of all passes add up to those of mps_step_info.seconds. */
+/** A pass, a part of a step, in the order in which a step runs them, and its cost. The seconds of
+ *  all passes sum to mps_step_info.seconds. */
 typedef struct mps_pass_info {
     /** Set by mps_pass_info_init(). */
     uint32_t struct_size;
-    /** MPS_POPULATE .. MPS_SHIFT of mps/stage.h; -1: in no hook */
+    /** MPS_POPULATE .. MPS_SHIFT of mps/stage.h; -1: no hook */
     int32_t hook;
     /** e.g. "force"; "step" for hook -1 */
     const char *hook_name;
-    /** Name of the model for a verb of a model; else name of the pass, e.g. "predict". */
+    /** For a verb: name of its model; else name of the pass, e.g. "predict". */
     const char *name;
     /** Channels that it uses, as mps_verb_info.uses. Passes of the library also use arrays that are
-     *  no channels of the list. */
+     *  not listed channels. */
     const char *uses;
     /** 1: a verb of a model, 0: a pass of the library. */
     int32_t model;
     /** Kept 0. */
     int32_t reserved;
-    /** Calls since the models changed last, or since mps_profile_reset(). Calls of steps that
-     *  failed count. A pass with nothing to do in a step is not called: "body" without a body. */
+    /** Calls since the last change of models or mps_profile_reset(), including those of failed
+     *  steps. A pass that is not needed in a step is not called, e.g. "body" without a rigid
+     *  body. */
     int64_t calls;
-    /** Wall clock of these calls [s]; on many ranks that of this rank. */
+    /** Wall-clock time of these calls on this rank [s]. */
     double seconds;
     /** Bytes of the arrays in `uses`, once for reading and once for writing, summed over the calls:
-     *  what loops over all particles move at least. Lists of neighbours, matrices and arrays that
-     *  are not in `uses` do not count. */
+     *  a lower bound of the memory traffic of loops over all particles. Neighbour lists, matrices
+     *  and arrays that are not in `uses` are not included. */
     double bytes;
 } mps_pass_info;
 
@@ -148,7 +148,7 @@ MPS_API mps_status mps_pass_info_init(mps_pass_info *info, size_t size);
 /** Set struct_size and zero. */
 MPS_API mps_status mps_name_info_init(mps_name_info *info, size_t size);
 
-/** Model number `index` of all that are known. */
+/** Model number `index` of all registered and built-in models. */
 MPS_API mps_status mps_model_info_get(const mps_sim *sim, int32_t index, mps_model_info *info);
 
 /** Setting number `index` of a model. @param model  full name @return MPS_E_NAME */
@@ -158,16 +158,16 @@ MPS_API mps_status mps_setting_info_get(const mps_sim *sim, const char *model, i
 /** Channel number `index`. */
 MPS_API mps_status mps_channel_info_get(const mps_sim *sim, int32_t index, mps_channel_info *info);
 
-/** Verb number `index` of the active models, in the order of a step.
- *  @return MPS_E_STATE: the active models have no order, with text */
+/** Verb number `index` of the active models, in the order of execution.
+ *  @return MPS_E_STATE: the active models have no valid order; with text */
 MPS_API mps_status mps_verb_info_get(mps_sim *sim, int32_t index, mps_verb_info *info);
 
-/** Pass number `index` of a step, verbs of models included, in the order of the step.
- *  @return MPS_E_STATE: the active models have no order, with text */
+/** Pass number `index` of a step, including verbs of models, in the order of execution.
+ *  @return MPS_E_STATE: the active models have no valid order; with text */
 MPS_API mps_status mps_pass_info_get(mps_sim *sim, int32_t index, mps_pass_info *info);
 
 /** Set calls, seconds and bytes of all passes to zero.
- *  @return MPS_E_STATE: the active models have no order; MPS_E_BUSY: called from a verb or a
+ *  @return MPS_E_STATE: the active models have no valid order; MPS_E_BUSY: called from a verb or a
  *          callback; a monitor may call it */
 MPS_API mps_status mps_profile_reset(mps_sim *sim);
 

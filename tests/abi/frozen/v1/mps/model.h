@@ -1,30 +1,31 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /** @file model.h  Plug-in interface of models: forces, walls, free surface, source, gradient, ...
  *
- *  A model is a table: name, help, settings, the channels it brings and its verbs. A channel is a
- *  named array with a value per particle. A hook is a place in the step. A verb is a
- *  function with its hook and the channels that it reads and writes; it gets those arrays and no
- *  others. The library makes, clears, moves, saves and frees
- *  channels, and it runs all loops over particles. Built-in models use this interface and no other.
+ *  A model is a table: name, help, settings, the channels that it provides and its verbs. A channel
+ *  is a named array with a value per particle. A hook is a phase of the step. A verb is a callback
+ *  with its hook and the channels that it reads and writes; it gets these arrays only. The library
+ *  allocates, clears, permutes, saves and frees channels, and it runs all loops over particles.
+ *  Built-in models use this interface only.
  *
- *  Notation: n particles, dim = 2 or 3; rows are particles in their present order.
+ *  Notation: n particles, dim = 2 or 3; rows are particles in their current order.
  *
  *  Order: hooks run in the order of MPS_POPULATE .. MPS_SHIFT. Within a hook a verb that writes a
  *  channel runs before verbs that change it, and these run before verbs that only read it. An
  *  `after` or `before` of a verb takes precedence over this; otherwise the order of registration
- *  holds. mps_verb_info_get() tells the order that results; verbs that wait
- *  for each other fail the step with MPS_E_STATE and the names of their models.
+ *  holds. mps_verb_info_get() returns the resulting order. A cycle of verbs fails the step with
+ *  MPS_E_STATE and the names of their models.
  *
- *  Channels are looked up when the first step after a change of models begins: a channel that no
- *  active model brings, or that cannot be used so in this hook, fails it with MPS_E_STATE.
+ *  Channels are resolved at the beginning of the first step after a change of models. This step
+ *  fails with MPS_E_STATE if no active model provides a channel, or if its access is not allowed in
+ *  this hook.
  *
- *  Channels that built-in models use if a model brings them:
- *    "viscosity" [Pa s], 1 number, for a step: used by "viscosity.laplacian" and "viscosity.pair"
- *      instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control knows the
- *      viscosities of the phases only: limit the step in MPS_LIMIT.
+ *  Optional channels that built-in models use if a model provides them:
+ *    "viscosity" [Pa s], 1 number, MPS_LIFE_STEP: "viscosity.laplacian" and "viscosity.pair" use it
+ *    instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control uses the
+ *    viscosities of the phases only: limit the step in MPS_LIMIT.
  *
- *  docs/tutorials/your_own_model.md writes a model step by step. The package has a conformance kit,
- *  model_kit.h, which runs a model and reports the rules that it breaks. */
+ *  Tutorial: docs/tutorials/your_own_model.md. The package has a conformance kit, model_kit.h,
+ *  which runs a model and reports the rules that it violates. */
 #ifndef MPS_MODEL_H
 #define MPS_MODEL_H
 
@@ -37,28 +38,28 @@ MPS_BEGIN_DECLS
 
 /** How a verb uses a channel: a sum of these. READ + WRITE changes values. */
 enum {
-    /** Reads the value of its own row. */
+    /** Reads the values of its own row. */
     MPS_USE_READ = 1,
     /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. A loop that
-     *  reads a channel at neighbours must not write it: write scratch first, and the channel in a
-     *  second loop. */
+     *  reads a channel at neighbours must not write it: write a workspace array first, and the
+     *  channel in a second loop. */
     MPS_USE_NEIGHBOURS = 2,
-    /** Writes values of its own row. Alone: the values before are not read. Rows that are not
-     *  written keep their values. */
+    /** Writes values of its own row. Without MPS_USE_READ the previous values must not be read.
+     *  Rows that are not written keep their values. */
     MPS_USE_WRITE = 4,
     /** Reads and writes its own row. */
     MPS_USE_CHANGE = 5,
-    /** The channel may be missing: no active model brings it. Its array is NULL then. */
+    /** The channel is optional: its array is NULL if no active model provides it. */
     MPS_USE_OPTIONAL = 8,
     /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
-     *  model that does, dummies have no rows in mps_view.near and .far. */
+     *  model with this access, dummies have empty rows in mps_view.near and .far. */
     MPS_USE_DUMMIES = 16,
-    /** Reads the near rows of neighbours within the far radius too, and values of the particles in
-     *  these rows. Implies MPS_USE_NEIGHBOURS. */
+    /** Reads the near pair lists of neighbours within the far radius too, and values of the
+     *  particles in these lists. Implies MPS_USE_NEIGHBOURS. */
     MPS_USE_ROWS = 32
 };
 
-/** A channel that a verb uses. Its array is s->data[k], k the place in mps_verb.uses. */
+/** A channel that a verb uses. Its array is s->data[k], k the index in mps_verb.uses. */
 typedef struct mps_use {
     /** Name of the channel. */
     const char *channel;
@@ -66,24 +67,26 @@ typedef struct mps_use {
     int32_t access;
 } mps_use;
 
-/** How long a channel lives. */
+/** Lifetime of a channel. */
 enum {
-    /** From the beginning of MPS_MOTION to the end of the step; not kept. */
+    /** From the beginning of MPS_MOTION to the end of the step. */
     MPS_LIFE_STEP = 0,
-    /** As long as its particle: it travels with it, is saved by checkpoints, comes back after a
-     *  failed step, and is a field for mps_lease_begin(), e.g. to write first values after
-     *  mps_model_use(). Verbs of all hooks may read it, and all but MPS_POPULATE may write it. When
-     *  its model is switched off the field stays with its values. Real numbers only. */
+    /** As long as its particle: it is permuted and migrated with the particle, saved by
+     *  checkpoints, restored after a failed step, and is a field for mps_lease_begin(), e.g. to
+     *  write initial values after mps_model_use(). Verbs of all hooks may read it; verbs of all
+     *  hooks except MPS_POPULATE may write it. If its model is switched off, the field remains with
+     *  its values. Real numbers only. */
     MPS_LIFE_PARTICLE = 1
 };
 
 /** Components of a vector and of a matrix: dim and dim*dim numbers a particle. A scalar is one
- *  number for all particles: its array has one entry, which a verb reads and writes itself; many
- *  ranks write the same. */
+ *  number for all particles: its array has one entry, which a verb reads and writes outside of
+ *  loops; all ranks must write the same value. */
 enum { MPS_VECTOR = -1, MPS_MATRIX = -2, MPS_SCALAR = -3 };
 
-/** A named array with a value per particle that a model brings. Two models may bring the same one
- *  if all entries but `help` agree. mps_channel_info_get() lists the library's own channels. */
+/** A named array with a value per particle that a model provides. Two models may provide the same
+ *  channel if all entries except `help` are equal. mps_channel_info_get() lists the library's own
+ *  channels. */
 typedef struct mps_channel {
     /** 1..31 characters, not one of the library's own. */
     const char *name;
@@ -97,8 +100,8 @@ typedef struct mps_channel {
     int32_t type;
     /** MPS_LIFE_... */
     int32_t life;
-    /** Value at the beginning of a step (of a life for MPS_LIFE_PARTICLE); on the diagonal of a
-     *  matrix, whose other entries are 0. */
+    /** Value at the beginning of a step (MPS_LIFE_PARTICLE: of a new particle). For a matrix: value
+     *  of the diagonal; the other entries are 0. */
     double initial;
 } mps_channel;
 
@@ -128,9 +131,9 @@ typedef struct mps_verb {
     int32_t use_count;
     /** Channels that it uses. */
     const mps_use *uses;
-    /** NULL, or a slot, e.g. "source": it runs after that model. "*": after all others. */
+    /** NULL, or a slot, e.g. "source": the verb runs after that model. "*": after all others. */
     const char *after;
-    /** NULL, or a slot: it runs before that model. "*": before all others. */
+    /** NULL, or a slot: the verb runs before that model. "*": before all others. */
     const char *before;
     /** The action. @return 0, or non-zero after mps_stage_fail() */
     int (*run)(mps_stage *s);
@@ -155,34 +158,41 @@ typedef struct mps_model_ops {
     int32_t part_count; /**< Entries of parts, 0..8. */
     /** Numbers that a user may set. */
     const mps_setting *settings;
-    /** Channels that it brings. */
+    /** Channels that it provides. */
     const mps_channel *channels;
-    /** What it does. */
+    /** Its verbs. */
     const mps_verb *verbs;
-    /** NULL, or make a state in *self, which holds `user` before. Non-zero: no memory.
-     *  Checkpoints do not save the state: what later steps depend on must be in channels of
-     *  MPS_LIFE_PARTICLE, or in numbers of mps_stage_state(). */
+    /** NULL, or create a state in *self; on entry *self is `user`. Non-zero: out of memory.
+     *  Checkpoints do not save the state: data that later steps depend on must be in channels of
+     *  MPS_LIFE_PARTICLE or in numbers of mps_stage_state(). */
     int (*create)(const mps_allocator *allocator, void **self);
-    /** Gives back what create made; needed with create. */
+    /** Frees the state of create; required with create. */
     void (*destroy)(const mps_allocator *allocator, void *self);
-    /** Data of the caller, e.g. a pointer that the verbs need as s->self. */
+    /** Data of the caller; without create the verbs get it as s->self. */
     void *user;
-    /** NULL, or the farthest distance at which its verbs look at particles, if it is more than the
-     *  far radius [m].
-     *  @param setting  values of the settings in their order @param dp  spacing [m] */
+    /** NULL, or the largest distance at which its verbs read particles, if it exceeds the far
+     *  radius [m].
+     *  @param setting  values of the settings in the order of `settings` @param dp  spacing [m] */
     double (*reach)(const double *setting, double dp);
-    /** [part_count] names of solids without particles that it stands for, see mps/reaction.h */
+    /** [part_count] names of the solids without particles that it represents, see mps/reaction.h */
     const char *const *parts;
-    /** NULL, or look at numbers of mps_stage_state() that a checkpoint brings, which may be of
-     *  another build of the model or forged. The checkpoint is refused with `why` if it returns
-     *  non-zero, and nothing has changed then.
-     *  @param numbers  [count], finite @param why  [size] out: what does not fit, one line */
+    /** NULL, or validate the numbers of mps_stage_state() in a checkpoint, which another build of
+     *  the model may have written or which may be manipulated. Non-zero: the checkpoint is refused
+     *  with `why`, and the simulation is unchanged.
+     *  @param numbers  [count], finite @param why  [size] out: the reason, one line */
     int (*check)(const double *numbers, int64_t count, char *why, size_t size);
 } mps_model_ops;
 
-/** Register a model on a handle; the table is copied. Then choose it with mps_model_use().
+/** Register a model on a handle; the table is copied. Then select it with mps_model_use().
  *  @return MPS_E_ARG (which entry, and what is allowed), MPS_E_VERSION, MPS_E_BUSY */
 MPS_API mps_status mps_model_register(mps_sim *sim, const mps_model_ops *ops);
+
+/** Smallest and largest density of each phase. In most steps this needs no loop over particles.
+ *  Collective: all ranks call it.
+ *  @param least  NULL, or [MPS_PHASES] out: minimum of each phase; 0 for a phase without fluid
+ *                [kg/m3]
+ *  @param greatest  NULL, or [MPS_PHASES] out: maximum of each phase; 0 as above [kg/m3] */
+MPS_API void mps_stage_densities(const mps_stage *s, double *least, double *greatest);
 
 MPS_END_DECLS
 

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file mps.h  Everything a user of libmps needs. Plug-in authors add model.h or ppe.h. */
+/** @file mps.h  All headers for users of libmps. Authors of plug-ins also include model.h or
+ *  ppe.h. */
 #ifndef MPS_MPS_H
 #define MPS_MPS_H
 

@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file numbers.h  Functions of numbers for row functions: exp, log, pow and the like.
+/** @file numbers.h  Elementary functions for row functions: exp, log, pow, sinh, cosh.
  *
- *  Made of sums, products, divisions and the bits of doubles: the same bytes with each compiler, C
- *  library and device, where no product is fused with a sum (gcc and clang: -ffp-contract=off). A
- *  row function calls these, sqrt() and fabs() in place of <math.h>. errno and the flags of
- *  floating-point exceptions are not set.
+ *  They use sums, products, divisions and bit operations of doubles only: results are bitwise the
+ *  same with each compiler, C library and device, if products and sums are not fused (gcc and
+ *  clang: -ffp-contract=off). Use these, sqrt() and fabs() in row functions instead of <math.h>.
+ *  errno and the flags of floating-point exceptions are not set.
  *
  *  Errors in units in the last place of the result, at most: mps_exp() 0.62, mps_expm1() 0.85,
- *  mps_log() 0.88, mps_sinh() 0.75, mps_cosh() 0.68, mps_pow() 0.72; below 2.2e-308 0.76, where
- *  numbers are rounded twice. NaN, infinities and zeros are those of annex F of C11.
+ *  mps_log() 0.88, mps_sinh() 0.75, mps_cosh() 0.68, mps_pow() 0.72 (results below 2.2e-308: 0.76,
+ *  because they are rounded twice). NaN, infinities and zeros as in annex F of C11.
  *
- *  Method: the argument is taken to a short interval around 0, where a polynomial through nodes of
- *  Chebyshev holds (scripts/numbers makes its coefficients), and what a sum rounds off is carried
- *  along: of a + b with |a| >= |b| that is b - ((a + b) - a). */
+ *  Method: argument reduction to a short interval around 0, a polynomial through Chebyshev nodes
+ *  there (coefficients from scripts/numbers), and compensated sums: the rounding error of a + b
+ *  with |a| >= |b| is b - ((a + b) - a). */
 #ifndef MPS_NUMBERS_H
 #define MPS_NUMBERS_H
 
@@ -34,7 +34,7 @@ static inline double mps_smaller(double a, double b)
     return b < a ? b : a;
 }
 
-/** The bits of a double. */
+/** The bit pattern of a double. */
 static inline uint64_t mps_bits_of(double a)
 {
     const union {
@@ -44,7 +44,7 @@ static inline uint64_t mps_bits_of(double a)
     return both.bits;
 }
 
-/** The double that has these bits. */
+/** The double with a bit pattern. */
 static inline double mps_double_of(uint64_t bits)
 {
     const union {
@@ -54,11 +54,11 @@ static inline double mps_double_of(uint64_t bits)
     return both.number;
 }
 
-/** A number in two parts. */
+/** A double-double number, hi + lo. */
 typedef struct mps_wide {
     /** The number, rounded. */
     double hi;
-    /** The rest. */
+    /** The remainder. */
     double lo;
 } mps_wide;
 
@@ -92,14 +92,14 @@ static inline mps_wide mps_wide_sum(double a, double b)
     return mps_wide_of(sum, b - (sum - a));
 }
 
-/** a + b of numbers with twice the digits, |a| >= |b| or a = 0. */
+/** a + b of double-double numbers, |a| >= |b| or a = 0. */
 static inline mps_wide mps_wide_add(mps_wide a, mps_wide b)
 {
     const mps_wide s = mps_wide_sum(a.hi, b.hi);
     return mps_wide_sum(s.hi, s.lo + (a.lo + b.lo));
 }
 
-/** The first 26 of the 53 digits of a. */
+/** a truncated to 26 of its 53 bits. */
 static inline double mps_upper(double a)
 {
     return mps_double_of(mps_bits_of(a) & ~(((uint64_t)1 << 27) - 1));
@@ -112,11 +112,11 @@ static inline mps_wide mps_wide_product(mps_wide a, double b)
     return mps_wide_of(p, (((a1 * b1 - p) + a1 * b2) + a2 * b1) + a2 * b2 + a.lo * b);
 }
 
-/** x = k log 2 + r.hi + r.lo, |r.hi| < 0.347, and the parts of e^r = cosh r + sinh r. */
+/** x = k log 2 + r.hi + r.lo, |r.hi| < 0.347, and the terms of e^r = cosh r + sinh r. */
 typedef struct mps_exp_parts {
     /** Multiple of log 2. */
     int k;
-    /** What is left. */
+    /** Remainder. */
     mps_wide r;
     /** r.hi^2/2 */
     double half;
@@ -126,11 +126,11 @@ typedef struct mps_exp_parts {
     double odd;
 } mps_exp_parts;
 
-/** Parts of e^x for x.hi + x.lo, |x.hi| < 800. */
+/** Terms of e^x for x.hi + x.lo, |x.hi| < 800. */
 static inline mps_exp_parts mps_exp_split(mps_wide x)
 {
-    /* A sum with 1.5 * 2^52 has no digits behind the point. The first part of log 2 has 42 bits, so
-     * that its product with k is exact. */
+    /* Adding 1.5 * 2^52 rounds to an integer. The first part of log 2 has 42 bits, so that its
+       product with k is exact. */
     const double whole = (x.hi * 0x1.71547652b82fep+0 + 0x1.8p52) - 0x1.8p52;
     const double r = x.hi - whole * 0x1.62e42fefa38p-1;
     mps_exp_parts e;
@@ -163,7 +163,7 @@ static inline double mps_exp(double x)
     return x != x ? x : mps_exp_wide(mps_wide_of(x, 0));
 }
 
-/** e^x - 1, with all digits near x = 0 too. */
+/** e^x - 1, accurate near x = 0 too. */
 static inline double mps_expm1(double x)
 {
     if (!(x < 40)) return mps_exp(x);
@@ -234,8 +234,8 @@ static inline double mps_log(double x)
     return w.hi + (w.lo - (half - (s * (half + rest) + k * 0x1.ef35793c76730p-45)));
 }
 
-/** Natural logarithm of x, positive and finite, to 2^-65 of itself: by products of numbers of 26
- *  digits, which are exact, and by small rests. */
+/** Natural logarithm of x, positive and finite, with a relative error of 2^-65: by products of
+ *  26-bit numbers, which are exact, and small remainders. */
 static inline mps_wide mps_log_wide(double x)
 {
     int k;
@@ -263,7 +263,7 @@ static inline mps_wide mps_log_wide(double x)
                        b.lo + (a.lo + (2 * (s2 + (s1 * w2 + s2 * w)) + k * 0x1.ef35793c76730p-45)));
 }
 
-/** 1: y is odd, 0: it is even, -1: it is no integer. */
+/** 1: y is odd, 0: y is even, -1: y is no integer. */
 static inline int mps_odd(double y)
 {
     if (!(fabs(y) < 0x1p53)) return 0; /* integers beyond 2^53 are even */

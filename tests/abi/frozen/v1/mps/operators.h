@@ -1,18 +1,18 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file operators.h  Kernels and MPS operators on any cloud of particles, with no simulation and
- *  no time step.
+/** @file operators.h  Kernels and MPS operators on any set of particles, without a simulation or a
+ *  time step.
  *
- *  An mps_neighbours object holds the neighbour list of a cloud. An mps_stencil is a read-only view
- *  of it for one radius, with the constants of the kernel. Operators take a stencil and plain
- *  arrays. Results have the same bytes for any number of threads.
+ *  An mps_neighbours object is the neighbour list of a set of particles. An mps_stencil is a
+ *  read-only view of it for one radius, with the constants of the kernel. Operators take a stencil
+ *  and plain arrays. Results have the same bytes for any number of threads.
  *
  *  Notation: r_ij = x_j - x_i, W = W(|r_ij|, re), D = dim.
  *  W22: Wen, Zhao & Wan (2022). Z14: Zhang, Wan & Hino (2014). (n): equation number there.
  *
- *  Errors: an operator returns MPS_E_ARG where the stencil or an array is not valid. The text tells
- *  which one and what is allowed: mps_neighbours_error() of the list that made the stencil,
- *  mps_sim_error() of the simulation that made it. A stencil that was never filled yields only the
- *  status code, no text. */
+ *  Errors: an operator returns MPS_E_ARG if the stencil or an array is invalid. The text names it
+ *  and what is allowed: mps_neighbours_error() for a stencil of a list, mps_sim_error() for a
+ *  stencil of a simulation. A stencil that was never filled returns only the status code, no
+ *  text. */
 #ifndef MPS_OPERATORS_H
 #define MPS_OPERATORS_H
 
@@ -25,10 +25,10 @@ MPS_BEGIN_DECLS
 
 /* ---- kernels --------------------------------------------------------------------------------- */
 
-/** A kernel W(r, re) >= 0 for 0 <= r < re; it is not called outside. It must be thread-safe. */
+/** A kernel W(r, re) >= 0, called for 0 <= r < re only. It must be thread-safe. */
 typedef double (*mps_kernel_fn)(void *user, double r, double re);
 
-/** Kernels known by number. */
+/** Identifiers of kernels. */
 enum {
     /** re/(0.85 r + 0.15 re) - 1, W22 (3): finite at r = 0. */
     MPS_KERNEL_IMPROVED = 1,
@@ -38,7 +38,7 @@ enum {
     MPS_KERNEL_CUSTOM = 3
 };
 
-/** A weight function by number or by callback. It is a part of mps_stencil and does not grow within
+/** A weight function by identifier or callback. A member of mps_stencil; its layout is fixed within
  *  a major version. */
 typedef struct mps_kernel {
     /** Set by mps_kernel_init(), or sizeof(mps_kernel). */
@@ -64,7 +64,7 @@ MPS_API mps_status mps_kernel_find(const char *name, mps_kernel *kernel);
  *  @return MPS_E_ARG: NULL, or not initialised */
 MPS_API mps_status mps_kernel_custom(mps_kernel_fn fn, void *user, mps_kernel *kernel);
 
-/** W(r, re); 0 for r >= re, r < 0 and for a kernel that is not valid. */
+/** W(r, re); 0 for r >= re, r < 0 and for an invalid kernel. */
 MPS_API double mps_kernel_value(const mps_kernel *kernel, double r, double re);
 
 /** W(r, re) for 0 <= r < re, unchecked, for the inner loops of plug-ins. */
@@ -75,7 +75,7 @@ static inline double mps_kernel_weight(const mps_kernel *kernel, double r, doubl
     return kernel->fn(kernel->user, r, re);
 }
 
-/** w[k] = W(r[k], re), unchecked; the built-in kernels take several r at a time. w may be r. */
+/** w[k] = W(r[k], re), unchecked; loops of the built-in kernels vectorise. w may be r. */
 static inline void mps_kernel_weights(const mps_kernel *kernel, double re, int32_t count,
                                       const double *r, double *w)
 {
@@ -103,24 +103,25 @@ MPS_API mps_status mps_lattice_constants(const mps_kernel *kernel, int32_t dim, 
  *
  *  | error | reason |
  *  |---|---|
- *  | MPS_E_ARG | the kernel is not valid; the text tells where |
+ *  | MPS_E_ARG | the kernel is invalid; the text states where |
  *  | MPS_E_STATE | a step was done |
  *  | MPS_E_BUSY | called from a monitor, a verb or a callback | */
 MPS_API mps_status mps_kernel_use(mps_sim *sim, const mps_kernel *kernel);
 
 /* ---- stencils -------------------------------------------------------------------------------- */
 
-/** Read-only view of a cloud and its pairs for one radius. Row i: col[begin[i]] .. col[end[i]-1],
- *  |r_ij| < re, j != i. Pairs are symmetric. Valid until the cloud is built again; a stencil of a
- *  simulation until the next step, add or remove; one of a verb until the verb returns. */
+/** Read-only view of a set of particles and its pairs for one radius. Row i is col[begin[i]] ..
+ *  col[end[i]-1]: all j != i with |r_ij| < re. Pairs are symmetric. Valid until the list is built
+ *  again; a stencil of a simulation until the next step, add or remove; a stencil of a verb until
+ *  the verb returns. */
 typedef struct mps_stencil {
     /** Set by mps_stencil_init(), or sizeof(mps_stencil). */
     uint32_t struct_size;
     /** 2 or 3 */
     int32_t dim;
-    /** Private: where operators write the text of an error. NULL: nowhere. */
+    /** Private: receives error texts of operators. NULL: no texts. */
     void *host;
-    /** Particles. */
+    /** Number of particles. */
     int64_t n;
     /** Spacing [m]. */
     double dp;
@@ -132,7 +133,7 @@ typedef struct mps_stencil {
     double lambda;
     /** Weight function. */
     mps_kernel kernel;
-    /** Threads of operators; NULL: the calling thread. Belongs to the list or the simulation. */
+    /** Threads of operators; NULL: the calling thread. Owned by the list or the simulation. */
     const mps_parallel *parallel;
     /** [n*dim] positions [m] */
     const double *x;
@@ -142,7 +143,7 @@ typedef struct mps_stencil {
     const int64_t *end;
     /** Neighbours. */
     const int32_t *col;
-    /** NULL, or W/|r_ij|^2 beside col [1/m2], as in the verbs of a step. */
+    /** NULL, or W/|r_ij|^2 of each entry of col [1/m2]; set for verbs of a step. */
     const double *w_r2;
 } mps_stencil;
 
@@ -167,8 +168,8 @@ static inline int64_t mps_stencil_column(const mps_stencil *s, int64_t k)
     return s->col[k];
 }
 
-/** Pairs that a row function puts into arrays of its own before it works on them: `most` where a
- *  processor then works on several at a time, 1 on a device. The results are the same. */
+/** Number of pairs that a row function copies to local arrays before it processes them: `most` on a
+ *  processor with vector instructions, 1 on a device. The results are the same. */
 #ifdef MPS_DEVICE
 #define MPS_PAIRS(most) 1
 #else
@@ -221,33 +222,33 @@ static inline mps_pair mps_stencil_pair(const mps_stencil *s, int64_t i, int64_t
 
 /* ---- neighbour lists ------------------------------------------------------------------------- */
 
-/** Neighbour list of a cloud. */
+/** Neighbour list of a set of particles. */
 typedef struct mps_neighbours mps_neighbours;
 
 /** Create an empty list.
  *  @param dim        2 or 3
  *  @param dp         spacing [m], > 0
- *  @param allocator  NULL for malloc and free; copied
+ *  @param allocator  NULL: malloc and free; copied
  *  @param list       out: the list, or NULL on failure; destroy it with mps_neighbours_destroy()
- *  @return MPS_E_ARG (no text: there is no list), MPS_E_NOMEM */
+ *  @return MPS_E_ARG (without text, because there is no list), MPS_E_NOMEM */
 MPS_API mps_status mps_neighbours_create(int32_t dim, double dp, const mps_allocator *allocator,
                                          mps_neighbours **list);
 
 /** Destroy a list; NULL is allowed. */
 MPS_API void mps_neighbours_destroy(mps_neighbours *list);
 
-/** Text of the last failed call on a list or on one of its stencils: what failed, which value, what
- *  is allowed. Never NULL; valid until the next call. */
+/** Text of the last failed call on a list or one of its stencils: what failed, which value, what is
+ *  allowed. Never NULL; valid until the next call. */
 MPS_API const char *mps_neighbours_error(const mps_neighbours *list);
 
-/** Threads that build the list, and threads of its stencils. Without this call: the calling thread.
+/** Set the threads that build the list, and those of its stencils. Default: the calling thread.
  *  @param parallel  copied. `run` NULL: parallel->threads threads of the list
  *  @return MPS_E_ARG, MPS_E_VERSION */
 MPS_API mps_status mps_neighbours_parallel_set(mps_neighbours *list, const mps_parallel *parallel);
 
-/** Find all pairs of two radii. Particles nearer than 1e-6 dp to each other are not a pair, because
- *  their direction is not defined (the two faces of a thin plate).
- *  @param n                particles, 1..2^31-1
+/** Find all pairs of two radii. Particles closer than 1e-6 dp are no pair, because their direction
+ *  is undefined (the two faces of a thin plate).
+ *  @param n                number of particles, 1..2^31-1
  *  @param x                [n*dim] positions [m], finite; borrowed until the next build
  *  @param re_near,re_far   radii [m], 0 < re_near <= re_far
  *  @return MPS_E_ARG, MPS_E_NOMEM; the list is empty then */
@@ -266,12 +267,12 @@ enum {
  *  @param which    MPS_NEAR or MPS_FAR
  *  @param kernel   copied; n0 and lambda are those of its lattice
  *  @param stencil  initialised by mps_stencil_init(); out
- *  @return MPS_E_ARG: also if the list is empty; MPS_E_VERSION */
+ *  @return MPS_E_ARG (also if the list is empty), MPS_E_VERSION */
 MPS_API mps_status mps_neighbours_stencil_get(const mps_neighbours *list, int32_t which,
                                               const mps_kernel *kernel, mps_stencil *stencil);
 
-/** The stencil of the particles of a simulation at their present positions (all kinds). The list is
- *  built again if needed. Particles are not reordered while a lease is open.
+/** Stencil of all particles of a simulation (all kinds) at their current positions. The list is
+ *  rebuilt if necessary. Particles are not reordered while a lease is open.
  *  @param which    MPS_NEAR or MPS_FAR
  *  @param stencil  initialised by mps_stencil_init(); out
  *
@@ -288,15 +289,16 @@ MPS_API mps_status mps_stencil_get(mps_sim *sim, int32_t which, mps_stencil *ste
 /** n_i = sum_j W. W22 (7). @param n  [s->n] out */
 MPS_API mps_status mps_op_number_density(const mps_stencil *s, double *n);
 
-/** delta_i = S_i/S0 - 1: relative excess of the density of particles; > 0: compressed. S_i is the
+/** delta_i = S_i/S0 - 1: relative deviation of the particle density; > 0: compressed. S_i is the
  *  sum over j and i itself of a smooth kernel of support s->re: Wendland C2 in 2-D, (1 - q^2)^3
- *  with q = r/re in 3-D. S0 is the sum of the lattice. Unlike n_i it hardly depends on the shape of
- *  the lattice.
+ *  with q = r/re in 3-D. S0 is the sum on the lattice. Unlike n_i it depends only weakly on the
+ *  arrangement of the particles.
  *  @param delta  [s->n] out [-] */
 MPS_API mps_status mps_op_volume_deviation(const mps_stencil *s, double *delta);
 
-/** Sum of f by the same kernel, over S0: 1 + delta_i for f = 1. With the volumes f_j that particles
- *  should have, in cells of the lattice, it is 1 where they have them.
+/** sum_j f_j/S0 with the kernel of mps_op_volume_deviation(): 1 + delta_i for f = 1. If f_j is the
+ *  nominal volume of particle j in cells of the lattice, the result is 1 where the volumes are
+ *  nominal.
  *  @param f [n] @param sum  [n] out, not f */
 MPS_API mps_status mps_op_volume_sum(const mps_stencil *s, const double *f, double *sum);
 
@@ -309,7 +311,7 @@ MPS_API mps_status mps_op_gradient_conservative(const mps_stencil *s, const doub
                                                 double *grad);
 
 /** \<grad f\>_i = D/n0 B_i sum_j (f_j - f_i) r_ij/|r_ij|^2 W, exact for linear f where B is not
- *  bounded.
+ *  bounded by `floor`.
  *  @param b  [n*dim*dim] from mps_op_correction() */
 MPS_API mps_status mps_op_gradient_corrected(const mps_stencil *s, const double *b, const double *f,
                                              double *grad);
@@ -318,7 +320,7 @@ MPS_API mps_status mps_op_gradient_corrected(const mps_stencil *s, const double 
  *  @param u  [n*dim] @param div  [n] out */
 MPS_API mps_status mps_op_divergence(const mps_stencil *s, const double *u, double *div);
 
-/** As mps_op_divergence() with B_i: exact for linear u where B is not bounded. */
+/** As mps_op_divergence() with B_i: exact for linear u where B is not bounded by `floor`. */
 MPS_API mps_status mps_op_divergence_corrected(const mps_stencil *s, const double *b,
                                                const double *u, double *div);
 
@@ -329,7 +331,7 @@ MPS_API mps_status mps_op_laplacian(const mps_stencil *s, const double *f, doubl
  *  out */
 MPS_API mps_status mps_op_laplacian_vector(const mps_stencil *s, const double *u, double *lap);
 
-/** A_i = D/n0 sum_j (x_i - x_j)/|r_ij| W: points out of the fluid. W22 (11).
+/** A_i = D/n0 sum_j (x_i - x_j)/|r_ij| W: directed out of the fluid. W22 (11).
  *  @param a  [n*dim] out [-] */
 MPS_API mps_status mps_op_asymmetry(const mps_stencil *s, double *a);
 
@@ -342,7 +344,7 @@ MPS_API mps_status mps_op_correction(const mps_stencil *s, double floor, double 
 /** Inverse of a symmetric matrix; eigenvalues below `floor` are raised to it.
  *  @param m        [dim*dim]
  *  @param inverse  [dim*dim] out
- *  @return MPS_E_ARG: dim is not 2 or 3, m is not finite, floor is not > 0 and finite */
+ *  @return MPS_E_ARG: dim is not 2 or 3, m is not finite, floor is not finite and > 0 */
 MPS_API mps_status mps_matrix_inverse_bounded(int32_t dim, const double *m, double floor,
                                               double *inverse);
 

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file parallel.h  Loops on several threads: the parallel-for of the library or of its host, and
- *  sums that do not depend on the number of threads.
+/** @file parallel.h  Multi-threaded loops: the parallel-for of the library or of the application,
+ *  and sums that do not depend on the number of threads.
  *
- *  A handle runs all its loops through one mps_parallel. By default it belongs to the library: the
- *  handle has threads, made by the first loop that needs them and joined by mps_sim_destroy(). A
- *  host with threads sets mps_config.parallel, and the library starts none. Plug-ins get the
- *  mps_parallel of the handle with a stencil or a pressure equation, and loop with the functions
- *  below.
+ *  A handle runs all its loops with one mps_parallel. By default it is that of the library: the
+ *  handle owns threads, created by the first loop that needs them and joined by mps_sim_destroy().
+ *  An application with its own threads sets mps_config.parallel; then the library starts none.
+ *  Plug-ins get the mps_parallel of the handle with a stencil or a pressure equation, and run loops
+ *  with the functions below.
  *
- *  The threads of the library block all signals. A thread without work spins for at most 50
- *  microseconds and then sleeps. After fork() only the parent may use or destroy a handle of more
- *  than one thread: the child has none of its threads. */
+ *  The threads of the library block all signals. An idle thread spins for at most 50 microseconds
+ *  and then sleeps. After fork() only the parent may use or destroy a handle with more than one
+ *  thread: the child does not have these threads. */
 #ifndef MPS_PARALLEL_H
 #define MPS_PARALLEL_H
 
@@ -20,10 +20,10 @@
 
 MPS_BEGIN_DECLS
 
-/** One part of a parallel loop. @param part 0..parts-1 */
+/** Process one part of a parallel loop. @param part 0..parts-1 */
 typedef void (*mps_part_fn)(void *argument, int32_t part);
 
-/** Rows begin..end-1 of a loop over rows. */
+/** Process rows begin..end-1 of a loop over rows. */
 typedef void (*mps_range_fn)(void *argument, int64_t begin, int64_t end);
 
 /** Rows begin..end-1 of a sum: adds to the sums and raises the maxima in `values`. */
@@ -33,15 +33,15 @@ typedef void (*mps_reduce_fn)(void *argument, int64_t begin, int64_t end, double
 typedef struct mps_parallel {
     /** Set by mps_parallel_init(). */
     uint32_t struct_size;
-    /** Threads that `run` uses: the number of parts that loops over rows are split into. Below
-     *  2: loops run in the calling thread. */
+    /** Number of threads that `run` uses: loops over rows are split into this number of parts.
+     *  Below 2: loops run in the calling thread. */
     int32_t threads;
-    /** Call body(argument, part) for part = 0..parts-1, each once, in any order, perhaps at the
-     *  same time. Return when all have ended. Memory written before the call is seen by all
-     *  parts, memory written by a part after the call. A call from inside a body must work too,
-     *  e.g. by calling all parts one after the other. NULL: the library's own threads where it
-     *  asks for a parallel-for (mps_config, mps_neighbours_parallel_set()); elsewhere loops run
-     *  in the calling thread. */
+    /** Call body(argument, part) for part = 0..parts-1, each once, in any order, possibly
+     *  concurrently. Return when all parts have returned. Memory written before the call is visible
+     *  to all parts, memory written by a part is visible after the call. Nested calls from a body
+     *  must work, e.g. by calling all parts sequentially. NULL in mps_config and
+     *  mps_neighbours_parallel_set(): threads of the library; elsewhere: loops run in the calling
+     *  thread. */
     void (*run)(void *user, int32_t parts, mps_part_fn body, void *argument);
     /** First argument of `run`. */
     void *user;
@@ -52,14 +52,14 @@ typedef struct mps_parallel {
 MPS_API mps_status mps_parallel_init(mps_parallel *parallel, size_t size);
 
 enum {
-    /** Parts that rows are summed in, for any number of threads. */
+    /** Number of partial sums of mps_parallel_reduce(), for any number of threads. */
     MPS_PARALLEL_PARTS = 64,
-    /** Sums and maxima of one loop, at most. */
+    /** Maximum number of sums and maxima of one loop. */
     MPS_PARALLEL_VALUES = 16,
-    /** Rows of a part of mps_parallel_rows(), at least. */
+    /** Minimum number of rows of a range in mps_parallel_rows(). */
     MPS_PARALLEL_LEAST = 128,
-    /** Ranges for each thread in mps_parallel_rows(): other threads take over ranges of a
-     *  delayed one. */
+    /** Ranges per thread in mps_parallel_rows(): other threads take over ranges of a delayed
+     *  thread. */
     MPS_PARALLEL_RANGES = 8
 };
 
@@ -80,7 +80,7 @@ typedef struct mps_parallel_rows_job {
     int64_t n;
     /** Number of parts. */
     int32_t parts;
-    /** What to call. */
+    /** Function to call. */
     mps_range_fn body;
     /** Its first argument. */
     void *argument;
@@ -93,8 +93,8 @@ static inline void mps_parallel_rows_part(void *argument, int32_t part)
     job->body(job->argument, job->n * part / job->parts, job->n * (part + 1) / job->parts);
 }
 
-/** Split rows 0..n-1 into MPS_PARALLEL_RANGES equal ranges for each thread, fewer where a range
- *  would have less than `least` rows. The body must give each row the same result in any range.
+/** Split rows 0..n-1 into MPS_PARALLEL_RANGES equal ranges per thread, or fewer so that a range has
+ *  at least `least` rows. The result of a row must not depend on its range.
  *  @param p NULL: one range, in the calling thread
  *  @param least > 0 */
 static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int64_t least,
@@ -111,7 +111,7 @@ static inline void mps_parallel_rows_least(const mps_parallel *p, int64_t n, int
     }
 }
 
-/** mps_parallel_rows_least() with at least MPS_PARALLEL_LEAST rows a range. */
+/** mps_parallel_rows_least() with at least MPS_PARALLEL_LEAST rows per range. */
 static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_range_fn body,
                                      void *argument)
 {
@@ -120,12 +120,11 @@ static inline void mps_parallel_rows(const mps_parallel *p, int64_t n, mps_range
 
 /** Sums and maxima of mps_parallel_reduce(). */
 typedef struct mps_parallel_values {
-    /** value[0..sums-1] are sums: 0 plus the rows, whatever they hold before. */
+    /** value[0..sums-1] are sums; out. They start at 0. */
     int32_t sums;
-    /** value[sums..sums+maxima-1] are maxima: not below what they hold before. A NaN does not
-     *  count. */
+    /** value[sums..sums+maxima-1] are maxima; in: lower bounds; out. NaN is ignored. */
     int32_t maxima;
-    /** [sums + maxima], MPS_PARALLEL_VALUES of them at most. */
+    /** [sums + maxima], at most MPS_PARALLEL_VALUES. */
     double *value;
 } mps_parallel_values;
 
@@ -133,9 +132,9 @@ typedef struct mps_parallel_values {
 typedef struct mps_parallel_reduce_job {
     /** Rows of all parts. */
     int64_t n;
-    /** What is wanted, and maxima before the first row. */
+    /** Number of sums and maxima, and initial maxima. */
     const mps_parallel_values *values;
-    /** What to call. */
+    /** Function to call. */
     mps_reduce_fn body;
     /** Its first argument. */
     void *argument;
@@ -148,17 +147,16 @@ static inline void mps_parallel_reduce_part(void *argument, int32_t part)
 {
     mps_parallel_reduce_job *job = (mps_parallel_reduce_job *)argument;
     const int32_t sums = job->values->sums, count = sums + job->values->maxima;
-    double own[MPS_PARALLEL_VALUES]; /* threads do not write to one cache line while they sum */
+    double own[MPS_PARALLEL_VALUES]; /* no false sharing of cache lines while threads sum */
     for (int32_t k = 0; k < count; k++) own[k] = k < sums ? 0.0 : job->values->value[k];
     job->body(job->argument, job->n * part / MPS_PARALLEL_PARTS,
               job->n * (part + 1) / MPS_PARALLEL_PARTS, own);
     for (int32_t k = 0; k < count; k++) job->part[part][k] = own[k];
 }
 
-/** Sums and maxima over rows 0..n-1 in one loop. Rows are added up in MPS_PARALLEL_PARTS parts
- *  of fixed ranges and the parts in their order: the result has the same bytes for any number of
- *  threads, but not for another order of the rows; those of mps_exact_rows() do not depend on the
- *  order either.
+/** Sums and maxima over rows 0..n-1 in one loop. Rows are summed in MPS_PARALLEL_PARTS fixed ranges
+ *  and the partial sums in order: the result has the same bytes for any number of threads, but
+ *  depends on the order of the rows; results of mps_exact_rows() do not.
  *  @param body adds rows to the sums, raises the maxima; may be called with begin = end */
 static inline void mps_parallel_reduce(const mps_parallel *p, int64_t n, mps_reduce_fn body,
                                        void *argument, const mps_parallel_values *values)

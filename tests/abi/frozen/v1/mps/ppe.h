@@ -4,7 +4,8 @@
  *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >=
  *  0. A is symmetric positive (semi-)definite for the default models. Rows of a gas may be
  *  nonlinear: A p + gas (f(p) - p) = b, f by mps_ppe_law(). A holds their linear part, so gas_i <=
- *  s_i. Built-in solvers use this interface and no other. */
+ *  s_i. Built-in solvers and preconditioners use this interface too. Only the built-in ones that
+ *  mps_sim_device_set() names solve equations on a device (<mps/device.h>). */
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
@@ -18,8 +19,8 @@ MPS_BEGIN_DECLS
 /** Version of this interface, for mps_solver_ops.api and mps_preconditioner_ops.api. */
 #define MPS_PPE_API 1u
 
-/** An equation whose rows lie on several ranks. Each rank has `n` rows. Columns n..n+ghosts-1 are
- *  unknowns of other ranks. All ranks make the same calls in the same order. */
+/** An equation whose rows are distributed over ranks. Each rank has `n` rows. Columns n..n+ghosts-1
+ *  are ghost columns: unknowns of other ranks. All ranks make the same calls in the same order. */
 typedef struct mps_ppe_ranks {
     /** sizeof(mps_ppe_ranks) of the library */
     uint32_t struct_size;
@@ -29,29 +30,31 @@ typedef struct mps_ppe_ranks {
     int32_t ranks;
     /** Kept 0. */
     int32_t reserved;
-    /** Columns of unknowns of other ranks. */
+    /** Number of ghost columns. */
     int64_t ghosts;
-    /** Rows of all ranks. */
+    /** Number of rows of all ranks. */
     int64_t rows;
-    /** Rows of the ranks before this one: the number of row 0 among all rows. */
+    /** Number of rows of lower ranks: the global index of row 0. */
     int64_t first;
     /** [n + ghosts] columns in the order of the particles, which is the same on all ranks that have
-     *  them */
+     *  these particles */
     const int32_t *order;
-    /** Ranks that own places [m*dim] of the lab: a function of the place, the same on all ranks. A
-     *  column of a particle within reach of an owned place is here. Non-zero: failed. */
+    /** Owner ranks of positions x [m*dim] in the lab: a function of the position, the same on all
+     *  ranks. This rank has a column for each particle within reach of an owned position. Non-zero:
+     *  failed. */
     int (*owner)(void *host, int64_t m, const double *x, int32_t *rank);
-    /** Set x[n..n+ghosts-1] to the values that the owners have in x[0..n-1]. Non-zero: failed. */
-    int (*share)(void *host, double *x);
-    /** Combine values of all ranks, as mps_ranks_ops.reduce. Non-zero: failed. */
+    /** Halo exchange: set x[n..n+ghosts-1] to the values of x[0..n-1] of the owners. Non-zero:
+     *  failed. */
+    int (*halo)(void *host, double *x);
+    /** Allreduce, as mps_ranks_ops.reduce. Non-zero: failed. */
     int (*reduce)(void *host, int32_t count, size_t bytes, void *values, mps_combine_fn combine);
-    /** Collect blocks of all ranks, as mps_ranks_ops.gather. Non-zero: failed. */
+    /** Collect blocks of all ranks (allgather), as mps_ranks_ops.gather. Non-zero: failed. */
     int (*gather)(void *host, const void *own, const int64_t *bytes, void *all);
-    /** Make a route between ranks, as mps_ranks_ops.connect. Non-zero: failed, there is none. */
+    /** Create a route between ranks, as mps_ranks_ops.connect. Non-zero: failed, no route. */
     int (*connect)(void *host, int32_t count, const int32_t *to, const int64_t *sent,
                    mps_route *route);
-    /** Free a route. A solver or preconditioner may keep one until its next set-up or until it is
-     *  destroyed. Not collective. */
+    /** Free a route. A solver or preconditioner may keep a route until its next setup or until it
+     *  is destroyed. Not collective. */
     void (*disconnect)(void *host, mps_route *route);
     /** Exchange elements along a route, as mps_ranks_ops.exchange_begin and exchange_end. Non-zero:
      *  failed. */
@@ -60,7 +63,7 @@ typedef struct mps_ppe_ranks {
     void *host;
 } mps_ppe_ranks;
 
-/** One pressure equation, made by the library; all arrays are borrowed for the call. */
+/** One pressure equation, assembled by the library; all arrays are borrowed for the call. */
 typedef struct mps_ppe_problem {
     /** sizeof(mps_ppe_problem) of the library */
     uint32_t struct_size;
@@ -68,55 +71,56 @@ typedef struct mps_ppe_problem {
     int32_t dim;
     /** Unknowns. */
     int64_t n;
-    /** [n+1] CSR row starts of the entries beside the diagonal */
+    /** [n+1] CSR row starts of the off-diagonal entries */
     const int64_t *row;
-    /** [row[n]] columns, ascending in a row; on many ranks in the order of the particles, and those
-     *  of other ranks are n and above */
+    /** [row[n]] columns, ascending in a row; on many ranks in the order of the particles; ghost
+     *  columns are >= n */
     const int32_t *col;
-    /** [row[n]] -k_ij in single precision, for half the memory traffic; entries ij and ji are
+    /** [row[n]] -k_ij in single precision, which halves the memory traffic; entries ij and ji are
      *  equal. */
     const float *val;
-    /** [n] s_i + sum_j k_ij of the entries as they are stored, so that rows keep their sum */
+    /** [n] s_i + sum_j k_ij of the stored (rounded) entries, so that row sums are exact */
     const double *diagonal;
-    /** [n] right side; free of the null space where components are singular */
+    /** [n] right-hand side; orthogonal to the null space of singular components */
     const double *rhs;
     /** [n] s_i: the row sums */
     const double *shift;
     /** [n] residual times weight = divergence times dt */
     const double *weight;
-    /** [n*dim] positions of the unknowns [m]; on many ranks [(n + ghosts)*dim] */
+    /** [n*dim] positions of the unknowns minus the displacement of the tank [m], so that a solution
+     *  does not depend on a uniform motion; on many ranks [(n + ghosts)*dim] */
     const double *x;
     /** Particle spacing [m]. */
     double dp;
-    /** Relative 2-norm of the residual wanted. */
+    /** Required relative 2-norm of the residual. */
     double tolerance;
-    /** Largest |residual * weight| wanted; 0: no limit. */
+    /** Required upper bound of |residual * weight|; 0: no limit. */
     double divergence;
-    /** Most iterations. */
+    /** Maximum number of iterations. */
     int32_t max_iterations;
-    /** Singular components (no Dirichlet row, no shift). */
+    /** Number of singular components (no Dirichlet row, no shift). */
     int32_t components;
-    /** [n] 0..components-1 of a singular component, else -1; NULL if there is none */
+    /** [n] 0..components-1 in a singular component, else -1; NULL without singular components */
     const int32_t *component;
     /** [n] >= 0, coefficient of a nonlinear row; NULL if there is no nonlinear row */
     const double *gas;
     /** [n] P_i > 0 of a nonlinear row [Pa], 0 of a linear one; NULL with gas */
     const double *law;
-    /** Threads to use; NULL: the calling thread. Valid as long as the matrix. */
+    /** Threads of the solver; NULL: the calling thread. Valid as long as the matrix. */
     const mps_parallel *parallel;
-    /** NULL: all rows are here. Otherwise arrays of unknowns that are multiplied by the matrix need
-     *  room for n + ghosts values. */
+    /** NULL: this rank has all rows. Otherwise vectors that are multiplied by the matrix need a
+     *  capacity of n + ghosts values. */
     const mps_ppe_ranks *ranks;
 } mps_ppe_problem;
 
-/** Set the values of x at columns of other ranks; does nothing where all rows are here.
+/** Halo exchange of x at ghost columns; does nothing if this rank has all rows.
  *  @param x  [n + ghosts] @return 0, or non-zero after a failure */
-static inline int mps_ppe_share(const mps_ppe_problem *problem, double *x)
+static inline int mps_ppe_halo(const mps_ppe_problem *problem, double *x)
 {
-    return problem->ranks ? problem->ranks->share(problem->ranks->host, x) : 0;
+    return problem->ranks ? problem->ranks->halo(problem->ranks->host, x) : 0;
 }
 
-/** Combine values of all ranks; does nothing where all rows are here. @return as mps_ppe_share() */
+/** Allreduce; does nothing if this rank has all rows. @return as mps_ppe_halo() */
 static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, size_t bytes,
                                  void *values, mps_combine_fn combine)
 {
@@ -125,19 +129,19 @@ static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, 
                : 0;
 }
 
-/** Sums and maxima over the rows of all ranks, from those of this rank, in one message: at most 4
- *  of each. @return as mps_ppe_share() */
+/** Allreduce of sums and maxima over rows in one message, at most 4 of each. In: over the rows of
+ *  this rank; out: over the rows of all ranks. @return as mps_ppe_halo() */
 MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
 
 /** Why a solver stopped. */
 enum {
     /** Both limits are met. */
     MPS_PPE_CONVERGED = 0,
-    /** Best effort in p; residual and divergence tell how good. */
+    /** p is the best iterate; residual and divergence are its errors. */
     MPS_PPE_MAX_ITERATIONS = 1,
     /** Negative curvature: matrix or preconditioner is not positive definite. */
     MPS_PPE_INDEFINITE = 2,
-    /** NaN or infinity in matrix, right side or result. */
+    /** NaN or infinity in matrix, right-hand side or result. */
     MPS_PPE_NAN = 3,
     /** Factorisation or recurrence failed. */
     MPS_PPE_BREAKDOWN = 4,
@@ -145,8 +149,8 @@ enum {
     MPS_PPE_NOMEM = 5
 };
 
-/** What a solver reports. It belongs to the caller of the solver, which initialises it: a solver
- *  sets members, one by one, and leaves struct_size alone. */
+/** Result of a solver. Owned and initialised by the caller of the solver: a solver sets single
+ *  members and does not change struct_size. */
 typedef struct mps_ppe_result {
     /** Set by mps_ppe_result_init(), or sizeof(mps_ppe_result). */
     uint32_t struct_size;
@@ -158,9 +162,9 @@ typedef struct mps_ppe_result {
     int32_t reserved;
     /** True relative 2-norm |b - A p| / |b|. */
     double residual;
-    /** True largest |(b - A p)_i weight_i|. */
+    /** True maximum of |(b - A p)_i weight_i|. */
     double divergence;
-    /** Time for factorisation and preconditioner [s]. */
+    /** Time of factorisation and preconditioner setup [s]. */
     double setup_seconds;
 } mps_ppe_result;
 
@@ -177,52 +181,53 @@ typedef struct mps_preconditioner_ops {
     const char *name;
     /** 1: M is symmetric positive definite (conjugate gradients need it) */
     int32_t symmetric;
-    /** New state in *self, which holds `user` before and may keep it. Memory comes from
+    /** Create a state in *self; on entry *self is `user`, which it may remain. Allocates from
      *  `allocator`. Non-zero: out of memory. */
     int (*create)(const mps_allocator *allocator, void **self);
-    /** Prepare for a matrix, which stays valid until the last apply.
+    /** Set up for a matrix, which is valid until the last apply.
      *  @return MPS_PPE_CONVERGED, or a reason of failure */
     int (*setup)(void *self, const mps_ppe_problem *problem);
     /** z = M^-1 r, both [n]. @return as setup */
     int (*apply)(void *self, const double *r, double *z);
-    /** Gives back all memory to the allocator that create was given. */
+    /** Frees all memory with the allocator that was passed to create. */
     void (*destroy)(const mps_allocator *allocator, void *self);
-    /** What *self holds when create is called, e.g. settings; default NULL. */
+    /** Value of *self on entry to create, e.g. settings; default NULL. */
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
-    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    /** 1: supports equations distributed over ranks (mps_ppe_problem.ranks); default 0 */
     int32_t ranks;
     /** Kept 0. */
     int32_t reserved;
-    /** On many ranks: farthest distance from an owned place of unknowns that it looks at [dp]; 0:
-     *  the far radius is enough. */
+    /** On many ranks: largest distance of the unknowns that it reads from an owned position [dp];
+     *  0: the far radius is sufficient. */
     double reach;
 } mps_preconditioner_ops;
 
-/** A solver. The kit of tests/conformance checks a table for all demands below (solver_kit.h:
+/** A solver. The kit of tests/conformance checks all requirements below (solver_kit.h:
  *  kit_check_solver(), kit_check_preconditioner(); link solver_kit.c, solver_systems.c,
- *  solver_ranks.c and kit_engine.c to your program). With every matrix:
- *  - p is finite when solve() returns, also after a failure; iterations are 0..max_iterations.
- *  - CONVERGED: residual and divergence are within the limits. With CONVERGED and with
- *    MAX_ITERATIONS both are true to 1 % (mps_ppe_check() fills them), and p has the mean zero over
- *    each singular component.
- *  - A first guess that is the solution costs at most one iteration, whatever its level over a
- *    singular component. A first guess that is not finite is not used, and is no failure. A right
- *    side of zeros gives zeros.
- *  - NaN or infinity in matrix, diagonal or right side: MPS_PPE_NAN.
- *  - Too few iterations: MPS_PPE_MAX_ITERATIONS, with a residual not above 1, that of zeros.
+ *  solver_ranks.c and kit_engine.c to your program). For every matrix:
+ *  - p is finite when solve() returns, also after a failure; iterations is in 0..max_iterations.
+ *  - CONVERGED: residual and divergence are within the limits. With CONVERGED and MAX_ITERATIONS
+ *    both are correct within 1 % (mps_ppe_check() computes them), and the mean of p over each
+ *    singular component is zero.
+ *  - An initial guess equal to the solution, up to a constant over a singular component, needs at
+ *    most one iteration. A non-finite initial guess is ignored and is no failure. A zero right-hand
+ *    side gives p = 0.
+ *  - NaN or infinity in matrix, diagonal or right-hand side: MPS_PPE_NAN.
+ *  - Too few iterations: MPS_PPE_MAX_ITERATIONS, with a residual of at most 1, the residual of p =
+ *    0.
  *  - A tolerance below rounding (1e-18): MPS_PPE_MAX_ITERATIONS with a residual below 1e-10, not a
- *    breakdown and not CONVERGED. A right side that is not free of the null space: likewise, with
- *    the rest solved (residual below 0.9).
+ *    breakdown and not CONVERGED. A right-hand side with a part in the null space:
+ *    MPS_PPE_MAX_ITERATIONS, with the other part solved (residual below 0.9).
  *  - With `symmetric`: a matrix that is not positive definite, or has a negative diagonal entry,
  *    gives MPS_PPE_INDEFINITE.
- *  - The same bytes and iterations with any number of threads; the same bytes from a state that
- *    solved other systems before.
- *  - MPS_PPE_NOMEM when an allocation fails. destroy() gives back all memory.
- *  - One unknown, rows without entries beside the diagonal, several components and densities of
- *    1000 : 1 (with the default preconditioner) are solved.
- *  - With `ranks` 1: the solution on two ranks is that on one, within 1e-9. */
+ *  - Bytes and iterations do not depend on the number of threads; bytes do not depend on systems
+ *    that the state solved before.
+ *  - MPS_PPE_NOMEM if an allocation fails. destroy() frees all memory.
+ *  - Systems with one unknown, with rows without off-diagonal entries, with several components and
+ *    with densities of 1000 : 1 (with the default preconditioner) are solved.
+ *  - With `ranks` 1: the solutions on two ranks and on one rank agree within 1e-9. */
 typedef struct mps_solver_ops {
     /** sizeof(mps_solver_ops) */
     uint32_t struct_size;
@@ -230,26 +235,26 @@ typedef struct mps_solver_ops {
     uint32_t api;
     /** e.g. "sundials.pcg" */
     const char *name;
-    /** Default preconditioner, or NULL if it uses none. */
+    /** Default preconditioner, or NULL if the solver uses none. */
     const char *preconditioner;
     /** 1: needs a symmetric positive definite matrix and preconditioner */
     int32_t symmetric;
-    /** New state in *self, as for a preconditioner. */
+    /** Create a state, as mps_preconditioner_ops.create. */
     int (*create)(const mps_allocator *allocator, void **self);
-    /** Solve. p [n] holds the first guess and takes the solution; it stays finite whatever happens.
-     *  pc and pc_self (table and state) are NULL for "none"; pc->setup was not called. `result` is
-     *  initialised; set its members. */
+    /** Solve. p [n]: in: initial guess; out: solution, finite also after a failure. pc and pc_self
+     *  (table and state) are NULL for "none"; pc->setup was not called. `result` is initialised;
+     *  set its members. */
     void (*solve)(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
                   void *pc_self, double *p, mps_ppe_result *result);
-    /** Gives back all memory to the allocator that create was given. */
+    /** Frees all memory with the allocator that was passed to create. */
     void (*destroy)(const mps_allocator *allocator, void *self);
-    /** 1: solves problems with nonlinear rows (mps_ppe_problem.law) too; default 0 */
+    /** 1: also solves problems with nonlinear rows (mps_ppe_problem.law); default 0 */
     int32_t nonlinear;
-    /** As for a preconditioner. */
+    /** As mps_preconditioner_ops.user. */
     void *user;
     /** NULL, or one line for lists. */
     const char *help;
-    /** 1: works on equations whose rows lie on several ranks (mps_ppe_problem.ranks); default 0 */
+    /** 1: supports equations distributed over ranks (mps_ppe_problem.ranks); default 0 */
     int32_t ranks;
 } mps_solver_ops;
 
@@ -261,15 +266,15 @@ MPS_API mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops);
 MPS_API mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops);
 
 /** Law of a nonlinear row: f(p) = P ln(1 + p/P), with f(0) = 0 and slope 1 there; rising and
- *  concave. Below p = -0.99 P, where hardly any gas is left, f continues along its tangent, so that
- *  it is finite for every p.
+ *  concave. Below p = -0.99 P, where almost no gas remains, f is its tangent, so that it is finite
+ *  for every p.
  *  @param law    P [Pa]; 0: f(p) = p
  *  @param slope  NULL, or out: f'(p) > 0
  *  @return f(p) [Pa] */
 MPS_API double mps_ppe_law(double law, double p, double *slope);
 
 /** Set residual and divergence of `result` to the true values for p, for plug-ins.
- *  @param work    [n] scratch, holds b - A p afterwards
+ *  @param work    [n] workspace; out: b - A p
  *  @param result  initialised by mps_ppe_result_init()
  *  @return MPS_E_ARG: result is not initialised */
 MPS_API mps_status mps_ppe_check(const mps_ppe_problem *problem, const double *p, double *work,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file ship.h  Motions and loads in the axes of a ship. The functions need no simulation: they
- *  convert from a ship's six degrees of freedom to the motion of the tank and back, and from forces
- *  and moments in the lab to those along the axes of the ship and back.
+/** @file ship.h  Motions and loads in the axes of a ship. The functions need no simulation. They
+ *  convert between the six degrees of freedom of a ship and the motion of the tank, and between
+ *  forces and moments along the axes of the lab and of the ship.
  *
  *  The axes of the ship at rest are e1, e2, e3, given by mps_ship.forward, .up and .axes as vectors
  *  of the lab. With surge, sway and heave s1, s2, s3 and the angles roll a1, pitch a2, yaw a3, a
@@ -10,9 +10,9 @@
  *    x = o + s1 e1 + s2 e2 + s3 e3 + R (X - o),
  *    R = T(e3, yaw) T(e2, pitch) T(e1, roll)   in the usual order,
  *
- *  where o is mps_ship.origin and T(e, a) the right-handed rotation by a about e. Read as rotations
- *  about axes that turn with the ship: yaw about e3, then pitch about the new e2, then roll about
- *  the newest e1 (z-y'-x''). Surge, sway and heave are along axes that do not turn.
+ *  where o is mps_ship.origin and T(e, a) the right-handed rotation by a about e. As intrinsic
+ *  rotations (about axes of the ship): yaw about e3, then pitch about the new e2, then roll about
+ *  the newest e1 (z-y'-x''). Surge, sway and heave are along axes that do not rotate.
  *
  *  | | MPS_SHIP_Z_UP | MPS_SHIP_Z_DOWN |
  *  |---|---|---|
@@ -22,7 +22,7 @@
  *  | positive pitch | bow down | bow up |
  *  | positive yaw | bow to port | bow to starboard |
  *
- *  All poses are about `origin`: mps_motion_centre_set() takes the same point. */
+ *  All poses are about `origin`: pass the same point to mps_motion_centre_set(). */
 #ifndef MPS_SHIP_H
 #define MPS_SHIP_H
 
@@ -56,9 +56,9 @@ enum {
 
 /** Axes along which the components of a vector are given. */
 enum {
-    /** e1, e2, e3 of the ship at rest; they do not turn. */
+    /** e1, e2, e3 of the ship at rest; they do not rotate. */
     MPS_SHIP_FIXED = 0,
-    /** R e1, R e2, R e3, which turn with the ship. */
+    /** R e1, R e2, R e3, which rotate with the ship. */
     MPS_SHIP_BODY = 1
 };
 
@@ -70,15 +70,15 @@ typedef struct mps_ship {
     int32_t axes;
     /** 0: angles in rad (default), 1: in degrees; rates per s, accelerations per s2. */
     int32_t degrees;
-    /** MPS_SHIP_ROLL, MPS_SHIP_PITCH and MPS_SHIP_YAW, each once, as rotations about axes that turn
-     *  with the ship, the first rotation first. Default: yaw, pitch, roll. */
+    /** MPS_SHIP_ROLL, MPS_SHIP_PITCH and MPS_SHIP_YAW, each once: order of the intrinsic rotations
+     *  (about axes of the ship). Default: yaw, pitch, roll. */
     int32_t order[3];
     /** Direction of the bow at rest, in the axes of the lab; any length. Default (1, 0, 0). */
     double forward[3];
     /** Direction up at rest, normal to `forward` within 1e-6; any length. Default (0, 1, 0). */
     double up[3];
-    /** Point that surge, sway and heave are those of, for example the centre of gravity, in the
-     *  frame of the tank [m]. */
+    /** Reference point of surge, sway and heave, for example the centre of gravity, in the frame of
+     *  the tank [m]. */
     double origin[3];
 } mps_ship;
 
@@ -104,70 +104,71 @@ typedef struct mps_ship_motion {
 /** Set struct_size and zero. @param size  sizeof(mps_ship_motion) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_ship_motion_init(mps_ship_motion *motion, size_t size);
 
-/** The motion of the tank that is this motion of the ship, for example in an mps_motion_fn.
+/** Convert a motion of the ship to the motion of the tank, for example in an mps_motion_fn.
  *  @param motion  finite
  *  @param tank    initialised by mps_motion_state_init(); out. Angles: mps_motion_pose_to_state()
  *
- *  | error | reason; `tank` is as before |
+ *  | error | reason; `tank` is unchanged |
  *  |---|---|
  *  | MPS_E_ARG | an entry of `ship` or `motion`; a struct was not initialised |
  *  | MPS_E_STATE | MPS_ROTATE_Z would be within 1e-6 of +-pi/2, see mps_motion_pose_to_state() | */
 MPS_API mps_status mps_ship_to_tank(const mps_ship *ship, const mps_ship_motion *motion,
                                     mps_motion_state *tank);
 
-/** The motion of the ship that is this motion of the tank. The first and the third angle in `order`
- *  are within half a turn, the second within a quarter.
+/** Convert a motion of the tank to the motion of the ship. The first and the third angle in `order`
+ *  are in -pi..pi, the second in -pi/2..pi/2.
  *  @param tank    finite
  *  @param motion  initialised by mps_ship_motion_init(); out
  *
- *  | error | reason; `motion` is as before |
+ *  | error | reason; `motion` is unchanged |
  *  |---|---|
  *  | MPS_E_ARG | an entry of `ship` or `tank`; a struct was not initialised |
- *  | MPS_E_STATE | the second angle is within 1e-6 rad of a quarter turn and not the only one | */
+ *  | MPS_E_STATE | the second angle is within 1e-6 rad of +-pi/2 and not the only one | */
 MPS_API mps_status mps_ship_from_tank(const mps_ship *ship, const mps_motion_state *tank,
                                       mps_ship_motion *motion);
 
-/** Columns for mps_motion_table_set() from a ship's six. From row to row each angle changes by less
- *  than half a turn, so that a heading may pass 180 degrees.
+/** Convert the six columns of a ship to columns for mps_motion_table_set(). From row to row each
+ *  angle changes by less than pi, so that a heading may pass 180 degrees.
  *  @param columns  [rows*6] row by row: surge, sway, heave, roll, pitch, yaw
  *  @param dofs     number of columns of `values`, 1..6
- *  @param dof      [dofs] degree of freedom of each, MPS_MOVE_X .. MPS_ROTATE_Z, each once
+ *  @param dof      [dofs] degrees of freedom of the columns, MPS_MOVE_X .. MPS_ROTATE_Z, all
+ *                  different
  *  @param values   [rows*dofs] row by row [m, rad]; out
  *
- *  | error | reason; `values` is as before |
+ *  | error | reason; `values` is unchanged |
  *  |---|---|
- *  | MPS_E_ARG | an entry of `ship`; rows < 1; dofs; dof; a NULL; a number that is not finite |
+ *  | MPS_E_ARG | an entry of `ship`; rows < 1; dofs; dof; a NULL; a non-finite number; |
  *  | | the ship moves in a degree of freedom that is not in `dof` |
  *  | MPS_E_STATE | as mps_ship_to_tank() | */
 MPS_API mps_status mps_ship_table(const mps_ship *ship, int64_t rows, const double *columns,
                                   int32_t dofs, const int32_t *dof, double *values);
 
-/** Components of a vector of the lab along the axes of the ship. Of `velocity` and `omega` of
- *  mps_motion_pose, with MPS_SHIP_BODY, they are u, v, w and p, q, r.
+/** Convert the components of a vector from the axes of the lab to those of the ship. With
+ *  MPS_SHIP_BODY, `velocity` and `omega` of mps_motion_pose give u, v, w and p, q, r.
  *  @param axes    MPS_SHIP_FIXED or MPS_SHIP_BODY
  *  @param lab     [3] finite
  *  @param vector  [3] out; may be `lab`
- *  @return MPS_E_ARG; `vector` is as before then */
+ *  @return MPS_E_ARG; `vector` is unchanged then */
 MPS_API mps_status mps_ship_vector_from_lab(const mps_ship *ship, const mps_motion_state *tank,
                                             int32_t axes, const double *lab, double *vector);
 
-/** The inverse of mps_ship_vector_from_lab(). @return MPS_E_ARG; `lab` is as before then */
+/** The inverse of mps_ship_vector_from_lab(). @return MPS_E_ARG; `lab` is unchanged then */
 MPS_API mps_status mps_ship_vector_to_lab(const mps_ship *ship, const mps_motion_state *tank,
                                           int32_t axes, const double *vector, double *lab);
 
-/** Force and moment about `origin` along the axes of the ship, from those of the library:
- *  M_o = M_at + R (at - origin) x F.
+/** Convert force and moment from the axes of the lab to those of the ship, with the moment about
+ *  `origin`: M_o = M_at + R (at - origin) x F.
  *  @param axes  MPS_SHIP_FIXED or MPS_SHIP_BODY
  *  @param at    [3] mps_probe.at of the probe MPS_PROBE_FORCE [m], or NULL: `origin`
- *  @param lab   [6] finite: force and moment about `at` along the axes of the lab [N, N m]. In 2-D
- *               the values of the probe are entries 0, 1 and 5, the others are 0 [N/m, N]
+ *  @param lab   [6] finite: force and moment about `at` along the axes of the lab [N, N m]. In 2-D:
+ *               the values of the probe in entries 0, 1 and 5, zeros in the others [N/m, N]
  *  @param load  [6] out: force along e1, e2, e3, and moment about `origin`: roll, pitch, yaw
- *  @return MPS_E_ARG; `load` is as before then */
+ *  @return MPS_E_ARG; `load` is unchanged then */
 MPS_API mps_status mps_ship_load_from_lab(const mps_ship *ship, const mps_motion_state *tank,
                                           int32_t axes, const double *at, const double *lab,
                                           double *load);
 
-/** The inverse of mps_ship_load_from_lab(). @return MPS_E_ARG; `lab` is as before then */
+/** The inverse of mps_ship_load_from_lab(). @return MPS_E_ARG; `lab` is unchanged then */
 MPS_API mps_status mps_ship_load_to_lab(const mps_ship *ship, const mps_motion_state *tank,
                                         int32_t axes, const double *at, const double *load,
                                         double *lab);

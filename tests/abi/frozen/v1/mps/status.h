@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file status.h  Status codes: 0 done; positive: succeeded with a warning; negative: failed, and
- *  the state is as before. */
+/** @file status.h  Status codes: 0: done; positive: succeeded with a warning; negative: failed, the
+ *  state is unchanged. */
 #ifndef MPS_STATUS_H
 #define MPS_STATUS_H
 
 #include <mps/export.h>
 #include <stdint.h>
 
-/** Result of every call that can fail; one of the MPS_... constants below. */
+/** Result of every function that can fail; one of the MPS_... constants below. */
 typedef int32_t mps_status;
 
 /** The one list of status codes: X(constant, value, meaning). */

@@ -5,11 +5,11 @@
 
 #include <mps/export.h>
 
-/** Changes when programs must be compiled again. */
+/** Incremented if programs must be recompiled. */
 #define MPS_VERSION_MAJOR 1
-/** Changes when something is added. */
+/** Incremented if functions are added. */
 #define MPS_VERSION_MINOR 0
-/** Changes when something is repaired. */
+/** Incremented if errors are corrected. */
 #define MPS_VERSION_PATCH 0
 /** Version of these headers, "major.minor.patch". */
 #define MPS_VERSION_STRING "1.0.0"

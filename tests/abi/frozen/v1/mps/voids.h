@@ -1,23 +1,24 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/** @file voids.h  For verbs of models: where the tank holds no liquid, and which of these spaces
- *  hang together.
+/** @file voids.h  For verbs of models: regions of the tank without liquid (voids) and their
+ *  connected components.
  *
- *  A raster of square cells stands in the frame of the tank. Its cells are
+ *  A grid of square cells is fixed in the frame of the tank. Its cells are
  *
- *    solid   in a wall, outside of the tank, or in a space that holds no liquid and is shut off,
- *    liquid  nearer than `cover` to a liquid particle,
+ *    solid   in a wall, outside of the tank, or in a closed space without liquid,
+ *    liquid  closer than `cover` to a liquid particle,
  *    deep    at least `channel` from all liquid particles,
  *    narrow  between the two.
  *
- *  Liquid particles are fluid that is not spray, and wall particles with such fluid within 1.5 dp.
- *  A distance is that of the cell's centre; a thin plate hides what is behind it. Deep cells that
- *  share a side form a component; walls, baffles and thin plates part them. Component 0 has the
- *  most deep cells: the ambient. Others are numbered by their first deep cell. Where there are two
- *  components or more, narrow cells belong to the one that reaches them first from cell to cell, so
- *  that a film or a neck may lie between two of them.
+ *  Liquid particles are fluid particles that are not spray, and wall particles with such fluid
+ *  within 1.5 dp. Distances are measured from the cell centre; a thin plate occludes particles
+ *  behind it. Deep cells that share a side form a component; walls, baffles and thin plates
+ *  separate components. Component 0, with the most deep cells, is the ambient. Other components are
+ *  numbered by their first deep cell. If there are two components or more, a narrow cell belongs to
+ *  the component that reaches it first from cell to cell (breadth-first), so that a film or a neck
+ *  may separate two components.
  *
- *  All of it has the same bytes for any number of threads and ranks, but for rows, which each rank
- *  has of its own. Notation: dp spacing, dim = 2 or 3. */
+ *  All results have the same bytes for any number of threads and ranks, except `face_row`, which is
+ *  local to a rank. Notation: dp spacing, dim = 2 or 3. */
 #ifndef MPS_VOIDS_H
 #define MPS_VOIDS_H
 
@@ -25,7 +26,7 @@
 
 MPS_BEGIN_DECLS
 
-/** What mps_stage_voids() looks for. 0 stands for a default, which depends on dim. */
+/** Parameters of mps_stage_voids(). 0 is the default, which depends on dim. */
 typedef struct mps_voids_config {
     /** Set by mps_voids_config_init(). */
     uint32_t struct_size;
@@ -33,12 +34,12 @@ typedef struct mps_voids_config {
     int32_t reserved;
     /** Side of a cell, 0.25..2; default 0.5 in 2-D, 1 in 3-D [dp] */
     double side;
-    /** Nearer cells are liquid, 0.5..3; default 0.72 in 2-D, 0.9 in 3-D [dp] */
+    /** Closer cells are liquid, 0.5..3; default 0.72 in 2-D, 0.9 in 3-D [dp] */
     double cover;
     /** Farther cells are deep, cover..3; default 0.9 in 2-D, 1.1 in 3-D [dp] */
     double channel;
-    /** Components whose deep cells hold less are left out: their cells belong to none [dp^dim].
-     *  Default 0. */
+    /** Least volume of the deep cells of a component [dp^dim]; cells of smaller components belong
+     *  to none. Default 0. */
     double least;
 } mps_voids_config;
 
@@ -47,14 +48,14 @@ MPS_API mps_status mps_voids_config_init(mps_voids_config *config, size_t size);
 
 /** Values of mps_voids.label below 0. */
 enum {
-    /** Liquid, or void that belongs to no component. */
+    /** Liquid, or a void cell of no component. */
     MPS_VOID_NONE = -1,
     /** In a wall or outside of the tank. */
     MPS_VOID_SOLID = -2
 };
 
-/** The raster of a step. All arrays are borrowed: valid until the next call of mps_stage_voids()
- *  with another config, or the end of the step. */
+/** The grid of a step. All arrays are borrowed: valid until the next call of mps_stage_voids() with
+ *  another config, or the end of the step. */
 typedef struct mps_voids {
     /** Set by mps_voids_init(). */
     uint32_t struct_size;
@@ -62,19 +63,19 @@ typedef struct mps_voids {
     int32_t dim;
     /** Side of a cell [m]. */
     double side;
-    /** Lower corner of the raster in the frame of the tank [m]. */
+    /** Lower corner of the grid in the frame of the tank [m]. */
     double origin[3];
     /** Cells along each axis; cells[2] is 1 in 2-D. Cell (a, b, c) is number
      *  a + cells[0] (b + cells[1] c). All 0 without solids. */
     int32_t cells[3];
-    /** Components. */
+    /** Number of components. */
     int32_t count;
     /** [cells] component, or MPS_VOID_NONE, MPS_VOID_SOLID */
     const int32_t *label;
-    /** [count] cells of each component */
+    /** [count] number of cells of each component */
     const int32_t *size;
-    /** Sides of cells of components that are not shared with a cell of the same component. Listed
-     *  where there are two components or more, else 0. */
+    /** Number of faces: sides of component cells that are not shared with a cell of the same
+     *  component. 0 if there are fewer than two components. */
     int64_t faces;
     /** [faces] the component */
     const int32_t *face_label;
@@ -83,26 +84,27 @@ typedef struct mps_voids {
     /** [faces] 2 d for a face towards the lower side of axis d, 2 d + 1 for the upper side */
     const int32_t *face_side;
     /** [faces] label of the cell behind the face; MPS_VOID_SOLID also at a thin plate and at the
-     *  end of the raster */
+     *  boundary of the grid */
     const int32_t *face_behind;
     /** [faces] row of the liquid particle nearest to the cell behind the face, if it is within
-     *  `channel`; ties by the least id. -1: none, or a particle that another rank owns. Of a face
-     *  with a particle exactly one rank has the row. */
+     *  `channel`; ties: the smallest id. -1: none, or owned by another rank. Exactly one rank has
+     *  the row of a face with a particle. */
     const int32_t *face_row;
 } mps_voids;
 
 /** Set struct_size and zero. @param size  sizeof(mps_voids) @return MPS_E_ARG: bad size */
 MPS_API mps_status mps_voids_init(mps_voids *voids, size_t size);
 
-/** Find the voids of the tank at the beginning of the step, from MPS_PREPARE on. All ranks call it.
- *  A second call in the same step with the same config costs nothing. On many ranks the model must
- *  reach 2 `channel` dp, see mps_model_ops.reach.
+/** Find the voids of the tank at the beginning of the step; allowed from MPS_PREPARE on.
+ *  Collective: all ranks call it. A second call in the same step with the same config returns the
+ *  stored result. On many ranks the reach of the model must be at least 2 `channel` dp, see
+ *  mps_model_ops.reach.
  *  @param config  NULL: defaults @param voids  initialised by mps_voids_init(); out
- *  @return 0, or non-zero after a failure (bad arguments, no memory, more than 2^31 - 1 cells; the
- *  error is set) */
+ *  @return 0, or non-zero after a failure (invalid arguments, no memory, more than 2^31 - 1 cells;
+ *  the error is set) */
 MPS_API int mps_stage_voids(mps_stage *s, const mps_voids_config *config, mps_voids *voids);
 
-/** Cell of a place in the frame of the tank; -1 outside of the raster. @param X  [dim] [m] */
+/** Cell of a position in the frame of the tank; -1 outside of the grid. @param X  [dim] [m] */
 static inline int64_t mps_voids_cell(const mps_voids *v, const double *X)
 {
     int64_t cell = 0;
@@ -114,8 +116,8 @@ static inline int64_t mps_voids_cell(const mps_voids *v, const double *X)
     return cell;
 }
 
-/** Component nearest to a place: that of the nearest cell centre of any component within a
- *  distance, ties by the first cell; -1: none. It looks through plates.
+/** Component nearest to a position: that of the nearest cell centre of any component within
+ *  `reach`, ties: the first cell; -1: none. Plates do not occlude cells.
  *  @param X  [dim] frame of the tank [m] @param reach  >= 0 [m] */
 static inline int32_t mps_voids_near(const mps_voids *v, const double *X, double reach)
 {
@@ -134,11 +136,12 @@ static inline int32_t mps_voids_near(const mps_voids *v, const double *X, double
             for (k[0] = lo[0]; k[0] <= hi[0]; k[0]++) {
                 const int32_t label = v->label[k[0] + v->cells[0] * (k[1] + v->cells[1] * k[2])];
                 double square = 0;
+                if (label < 0) continue;
                 for (int d = 0; d < v->dim; d++) {
                     const double r = v->origin[d] + ((double)k[d] + 0.5) * v->side - X[d];
                     square += r * r;
                 }
-                if (label < 0 || square > least || (square == least && found >= 0)) continue;
+                if (square > least || (square == least && found >= 0)) continue;
                 least = square;
                 found = label;
             }
