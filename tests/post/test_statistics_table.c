@@ -265,7 +265,7 @@ static void json(void **state)
     assert_int_equal(mps_stats_json_write(1, names, one, 10, text, length + 1), length);
     assert_int_equal(strlen(text), length);
     check_json(text);
-    assert_non_null(strstr(text, "\"name\": \"P \\\"1\\\"\\\\\\u000a\""));
+    assert_non_null(strstr(text, "\"name\": \"P \\\"1\\\"\\\\\\n\""));
     assert_non_null(strstr(text, "\"threshold\": 5,"));
     assert_non_null(strstr(text, "\"from\": null"));
     assert_non_null(strstr(text, "\"weibull\": {\"state\": \"likelihood\""));

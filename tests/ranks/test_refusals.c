@@ -140,7 +140,7 @@ static void too_late(mps_sim *sim, const mps_ranks_ops *ops, char *fault)
     EXPECT(mps_checkpoint_read(sim, "none"), MPS_E_STATE, "before the first step");
 }
 
-static void gathering(mps_sim *sim, char *fault)
+static void collecting(mps_sim *sim, char *fault)
 {
     mps_lease lease;
     mps_lease_init(&lease, sizeof lease);
@@ -150,7 +150,7 @@ static void gathering(mps_sim *sim, char *fault)
     EXPECT(mps_lease_end(sim, &lease), MPS_OK, "");
     EXPECT(mps_particles_collect(sim), MPS_OK, "");
     EXPECT(mps_particles_collect(sim), MPS_E_STATE, "collected already");
-    EXPECT(mps_step(sim, 1, NULL), MPS_E_STATE, "gather");
+    EXPECT(mps_step(sim, 1, NULL), MPS_E_STATE, "collected");
     EXPECT(mps_lease_begin(sim, "velocity", MPS_READ, &lease), MPS_OK, "");
     EXPECT(mps_particles_collect_end(sim), MPS_E_BUSY, "lease");
     EXPECT(mps_lease_end(sim, &lease), MPS_OK, "");
@@ -170,7 +170,7 @@ static void run_rank(void *argument, int32_t rank)
     if (status == MPS_OK) status = mps_step(sim, 1, NULL);
     EXPECT(status, MPS_OK, "");
     too_late(sim, &ops, fault);
-    gathering(sim, fault);
+    collecting(sim, fault);
     EXPECT(mps_particles_ghosts(sim, NULL), MPS_E_ARG, "ghost");
     EXPECT(mps_particles_ghosts(sim, &ghost), MPS_OK, "");
     if (!ghost && !fault[0]) snprintf(fault, TEXT, "no ghosts");

@@ -338,7 +338,7 @@ static void silent_between_steps(void **state)
     s.dead = true;
     for (int k = 0; k < 2; k++) {
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "velocity", MPS_READ, &lease), MPS_E_PLUGIN,
-                       "the fields of the particles are there alone");
+                       "the newest fields are on the device only");
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease), MPS_E_PLUGIN,
                        "alone");
         ASSERT_REFUSED(sim, mps_energy_get(sim, &energy), MPS_E_PLUGIN, "alone");

@@ -126,8 +126,8 @@ mps_status mps__memory_restored(mps__memory *t, double time)
     if (!t->device.failed) return MPS_OK;
     t->device.failed = false;
     snprintf(t->lost, sizeof t->lost,
-             "t = %.9g s: device '%s' failed: %.200s; the fields of the particles were there "
-             "alone: read a checkpoint or restore a snapshot",
+             "t = %.9g s: device '%s' failed: %.200s; the newest fields were on the device "
+             "only: read a checkpoint or restore a snapshot",
              time, t->device.ops.name, t->device.why);
     return mps__memory_alive(t);
 }

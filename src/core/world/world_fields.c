@@ -10,7 +10,7 @@ static mps_status report(const mps__world *w, mps_status status)
     if (status >= 0 || w->runner.memory.lost[0] || w->runner.memory.step) return status;
     memcpy(why, w->context->error, sizeof why);
     return mps__fail(w->context, status,
-                     "t = %.9g s: %.300s; the fields of the particles are there alone: try again, "
+                     "t = %.9g s: %.300s; the newest fields are on the device only: try again, "
                      "or read a checkpoint or restore a snapshot",
                      w->state.t, why);
 }
