@@ -96,6 +96,21 @@ cmp run/probes.csv again/probes.csv || fail "case.yaml gives other bytes"
 expect 0 "" "$program" run run/report.html -o once_more -q
 cmp run/probes.csv once_more/probes.csv || fail "the case of report.html gives other bytes"
 cmp run/frames/frames_000002.vtp once_more/frames/frames_000002.vtp || fail "the case of report.html gives another frame"
+# the volume of a liquid of very few particles
+cat > ball.yaml << 'EOF'
+mps: 1
+dim: 3
+dp: 50 mm
+tank: {sphere: {radius: 0.18 m}}
+solids: {block: {box: [-0.06 0 -0.06 m, 0.06 0.1 0.06 m]}}
+fill: [{water: {depth: 45 %}}]
+motion: {surge: {amplitude: 20 mm, period: 0.7 s}}
+output: {frames: 0}
+run: {until: 0.08 s}
+EOF
+expect 0 "warning: the liquid's volume changed by up to " "$program" run ball.yaml -o ball
+expect 0 "" "$program" run tank.yaml --set "run.until=0.05 s" --set output.frames=0 -o calm
+! grep -q "volume changed" log || fail "a calm tank has a warning of its volume"
 rm run/report.html
 expect 0 "run/report.html: " "$program" report run
 [ -s run/report.html ] || fail "no report.html by 'mps report'"

@@ -156,6 +156,7 @@ static void measure_energies(mps_job *job, double *out)
                                           e.layers};
     memcpy(out, values, sizeof values);
     job->totals.volume_error = e.volume_error;
+    job->totals.volume_largest = fmax(job->totals.volume_largest, fabs(e.volume_error));
 }
 
 static double measure_column(mps_job *job, const job_column *c)
