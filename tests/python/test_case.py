@@ -36,7 +36,7 @@ class Cases(unittest.TestCase):
             with self.assertRaisesRegex(mps.StateError, "^folder .*/a: there is an earlier run .*overwrite=True") as caught:
                 mps.Case(TANK).run(f"{folder}/a", say=None)
             self.assertNotIn("--", str(caught.exception))
-            with self.assertRaisesRegex(mps.Error, "resume=True: there is no run in") as caught:
+            with self.assertRaisesRegex(mps.Error, "resume: there is no run in") as caught:
                 mps.Case(TANK).run(f"{folder}/none", say=None, resume=True)
             self.assertNotIn("--", str(caught.exception))
             file = Path(folder) / "tank.yaml"
@@ -148,7 +148,7 @@ class Interface(unittest.TestCase):
         """Functions of C that texts of the library name have names in this package, but those of models, ranks and devices."""
         from mps.errors import PYTHON, in_python
 
-        others = ("stage_", "sim_ranks", "sim_device", "particles_gather", "parallel", "kernel_custom")
+        others = ("stage_", "sim_ranks", "sim_device", "particles_collect", "parallel", "kernel_custom")
         named, called = set(), set()
         for folder in ("core", "geometry", "phase", "bc", "ppe"):
             for path in (ROOT / "src" / folder).rglob("*.c"):
