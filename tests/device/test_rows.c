@@ -315,13 +315,13 @@ static void a_difference_is_found(void **state)
                           .dim = 2,
                           .n = N,
                           .file = "particles.c",
-                          .name = "gather_8",
+                          .name = "permute_8",
                           .fields = &fields,
                           .bytes = sizeof fields,
                           .run = run_other,
                           .host = &fields};
     assert_int_equal(ops->launch(ops->self, &l), 0);
-    assert_non_null(strstr(device.difference, "gather_8"));
+    assert_non_null(strstr(device.difference, "permute_8"));
     assert_non_null(strstr(device.difference, "byte 560"));
     assert_int_equal(ops->download(ops->self, number, fields.to, sizeof number), 0);
     for (int k = 0; k < N; k++) assert_int_equal(number[k], k);

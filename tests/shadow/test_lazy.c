@@ -340,12 +340,12 @@ static void silent_between_steps(void **state)
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "velocity", MPS_READ, &lease), MPS_E_PLUGIN,
                        "the newest fields are on the device only");
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "velocity", MPS_WRITE, &lease), MPS_E_PLUGIN,
-                       "alone");
-        ASSERT_REFUSED(sim, mps_energy_get(sim, &energy), MPS_E_PLUGIN, "alone");
+                       "device only");
+        ASSERT_REFUSED(sim, mps_energy_get(sim, &energy), MPS_E_PLUGIN, "device only");
         ASSERT_REFUSED(sim, mps_checkpoint_write(sim, path_of(path, "none")), MPS_E_PLUGIN,
-                       "alone");
-        ASSERT_REFUSED(sim, mps_snapshot_take(snapshot), MPS_E_PLUGIN, "alone");
-        ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_PLUGIN, "alone");
+                       "device only");
+        ASSERT_REFUSED(sim, mps_snapshot_take(snapshot), MPS_E_PLUGIN, "device only");
+        ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_PLUGIN, "device only");
     }
     s.dead = false;
     same(host, sim);
@@ -375,7 +375,7 @@ static void die(mps_sim *host, mps_sim *sim, shadow *s, int way, int64_t launch)
         ASSERT_REFUSED(sim, mps_lease_begin(sim, "position", MPS_READ, &lease), MPS_E_PLUGIN,
                        "read a checkpoint or restore a snapshot");
         ASSERT_REFUSED(sim, mps_step(sim, 0.01, NULL), MPS_E_PLUGIN, "t = ");
-        ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_PLUGIN, "alone");
+        ASSERT_REFUSED(sim, mps_sim_device_set(sim, NULL), MPS_E_PLUGIN, "device only");
     }
     if (way == 0) ASSERT_OK(sim, mps_checkpoint_read(sim, path));
     if (way == 1) ASSERT_OK(sim, mps_snapshot_restore(snapshot));
