@@ -20,16 +20,16 @@ typedef struct input {
     char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
 } input;
 
-typedef struct gathered_run {
+typedef struct collected_run {
     char *folder;
     int32_t inputs;
     input *input;
-} gathered_run;
+} collected_run;
 
 typedef struct collection {
     const choices *c;
     int32_t runs;
-    gathered_run *run;
+    collected_run *run;
     int32_t varied;
     char key[VARIED_MOST][SUMMARY_TEXT];
     collect collect;
@@ -47,7 +47,7 @@ static bool has_summary(const char *folder)
 
 static bool add_run(collection *g, const char *folder)
 {
-    gathered_run *grown = mps__grown(g->run, g->runs, sizeof *grown);
+    collected_run *grown = mps__grown(g->run, g->runs, sizeof *grown);
     char *copy = malloc(strlen(folder) + 1);
     if (grown) g->run = grown;
     if (!grown || !copy || g->runs == RUNS_MOST) {
@@ -55,13 +55,13 @@ static bool add_run(collection *g, const char *folder)
         return false;
     }
     memcpy(copy, folder, strlen(folder) + 1);
-    grown[g->runs++] = (gathered_run){.folder = copy};
+    grown[g->runs++] = (collected_run){.folder = copy};
     return true;
 }
 
 static int by_name(const void *a, const void *b)
 {
-    return strcmp(((const gathered_run *)a)->folder, ((const gathered_run *)b)->folder);
+    return strcmp(((const collected_run *)a)->folder, ((const collected_run *)b)->folder);
 }
 
 /* Add a folder of a run, or the runs in its folders. @return exit code, -1: continue */
@@ -95,7 +95,7 @@ static int add_folder(collection *g, const char *folder)
 
 /* ---- inputs that differ ---- */
 
-static const char *value_of(const gathered_run *r, const char *key)
+static const char *value_of(const collected_run *r, const char *key)
 {
     for (int32_t k = 0; k < r->inputs; k++)
         if (strcmp(r->input[k].key, key) == 0) return r->input[k].value;
@@ -132,7 +132,7 @@ static bool is_known(const collection *g, const char *key)
 static bool find_varied(collection *g)
 {
     for (int32_t i = 0; i < g->runs; i++) {
-        gathered_run *r = &g->run[i];
+        collected_run *r = &g->run[i];
         char key[SUMMARY_TEXT], value[SUMMARY_TEXT];
         for (int32_t k = 0; summary_input(r->folder, k, key, value); k++) {
             input *grown = mps__grown(r->input, k, sizeof *grown);
@@ -166,7 +166,7 @@ static double exit_of(const char *folder)
                                                   : MPS_EXIT_DIVERGED;
 }
 
-static double si_value(const gathered_run *r, const char *key, char unit[UNIT_SIZE])
+static double si_value(const collected_run *r, const char *key, char unit[UNIT_SIZE])
 {
     const char *text = value_of(r, key);
     double value = NAN;
@@ -203,7 +203,7 @@ static void write_names(const collection *g, FILE *out, const mps_table *first)
 
 static void write_run(const collection *g, FILE *out, int32_t i, const mps_table *first)
 {
-    const gathered_run *r = &g->run[i];
+    const collected_run *r = &g->run[i];
     char unit[UNIT_SIZE];
     const double code = exit_of(r->folder);
     mps_table *rows = code == MPS_EXIT_OK ? series_table(g->c, r->folder) : NULL;

@@ -171,13 +171,13 @@ static bool describe_table(const head *h)
 
 static int describe(head *h)
 {
-    static bool (*const describes[])(const head *) = {
+    static bool (*const kinds[])(const head *) = {
         describe_checkpoint, describe_frame,   describe_series, describe_page,
         describe_case,       describe_summary, info_surface,    describe_table};
     h->count = fread(h->text, 1, HEAD, h->file);
     h->text[h->count] = '\0';
-    for (size_t i = 0; i < sizeof describes / sizeof *describes; i++)
-        if (describes[i](h)) return MPS_EXIT_OK;
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
+        if (kinds[i](h)) return MPS_EXIT_OK;
     fprintf(stderr, "mps info: %s: is no file of mps\n", h->path);
     return MPS_EXIT_USAGE;
 }

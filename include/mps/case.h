@@ -208,8 +208,8 @@ MPS_API size_t mps_case_schema_write(char *buffer, size_t size);
 /** Build the simulation of a case, and its job with all columns, figures and references. An error
  *  of the library becomes a message at the line of the object. Destroy the case after job and
  *  simulation.
- *  @param options  of the program: folder, command, resume, overwrite, quiet, signals, ranks, say,
- *                  error; the case defines all others
+ *  @param options  of the program: folder, command, resume, overwrite, quiet, signals, ranks,
+ *                  print, error; the case defines all others
  *  @param job      out: the job; destroy it after the simulation. NULL on failure
  *  @param sim      out: the simulation. NULL on failure
  *

@@ -5,7 +5,7 @@
  *  A job steps a simulation that the program has built. It writes probes.csv, steps.csv,
  *  momentum.csv, summary.json, frames, pictures, plots, report.html and checkpoints into its
  *  folder, and continues from a checkpoint. It never ends the program. All its messages go through
- *  mps_job_config.say.
+ *  mps_job_config.print.
  *
  *  Order of calls: mps_job_config_init(), mps_job_create(), building of the simulation, columns
  *  and figures, mps_job_run(), mps_sim_destroy(), mps_job_destroy(). */
@@ -163,7 +163,7 @@ typedef struct mps_job_config {
     const mps_job_ranks *ranks;
     /** NULL: messages and progress go to stderr, tables to stdout. */
     mps_job_print_fn print;
-    /** First argument of say. */
+    /** First argument of `print`. */
     void *print_user;
     /** NULL, or buffer for the error text of mps_job_create(). */
     char *error;
@@ -214,7 +214,7 @@ MPS_API void mps_job_destroy(mps_job *job);
 MPS_API const char *mps_job_error(const mps_job *job);
 
 /** For mps_config.log, with the job as log_user: passes the first 20 warnings and messages of the
- *  library to mps_job_config.say. */
+ *  library to mps_job_config.print. */
 MPS_API void mps_job_log(void *job, int level, const char *text);
 
 /** Output a message of the program like those of the job, with its name as prefix; only on rank 0,

@@ -99,7 +99,7 @@ int cuda_fit(cuda *c, cuda_block *block, size_t bytes)
 }
 
 /* The smallest free buffer that is large enough and at most twice as large. */
-static cuda_block *free_block(cuda *c, size_t bytes)
+static cuda_block *find_unused(cuda *c, size_t bytes)
 {
     cuda_block *best = NULL;
     for (size_t k = 0; k < c->blocks; k++) {
@@ -125,7 +125,7 @@ void *cuda_take(void *self, uint64_t wanted)
 {
     cuda *c = self;
     const size_t bytes = (size_t)((wanted + wanted / SPARE + ALIGN - 1) / ALIGN * ALIGN);
-    cuda_block *r = free_block(c, wanted);
+    cuda_block *r = find_unused(c, wanted);
     if (!r && grow_blocks(c) && cuda_enter(c) == 0) {
         cuda_address begin;
         if (ask(c, bytes, &begin) == 0) {

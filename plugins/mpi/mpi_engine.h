@@ -29,7 +29,7 @@ typedef struct mps__mpi {
     double watchdog; /* [s] */
 
     /* collective failure: rank 0 decides which text counts */
-    bool failed, agreed; /* a rank failed; `said` is the text of rank 0 */
+    bool failed, agreed; /* a rank failed; `received` is the text of rank 0 */
     bool stuck;          /* messages did not complete: MPI may still use their memory */
     char own[MPS__MPI_TEXT], received[MPS__MPI_TEXT];
     const char *text;

@@ -8,7 +8,7 @@
 #include "helpers.h"
 
 /* In an acute corner the correction for one face points into the other face: iterate. */
-enum { MPS__WALL_ROUNDS = 4 };
+enum { MPS__WALL_ITERATIONS = 4 };
 
 /* Unit normal of wall j. Returns its area; 0: no normal. */
 MPS_ROW double mps__wall_normal(const int dim, const mps_view *view, int64_t j, double n[3])
@@ -123,7 +123,7 @@ MPS_ROW void mps__walls_keep_off(const int dim, const mps_view *view, double rea
                                  const double *u, int64_t i, double v[3])
 {
     const mps__wall_task asked = {reach, lift, u};
-    for (int k = 0; k < MPS__WALL_ROUNDS; k++)
+    for (int k = 0; k < MPS__WALL_ITERATIONS; k++)
         if (!mps__wall_correct(dim, view, &asked, i, v)) return;
 }
 

@@ -97,7 +97,7 @@ MPS_ROW void decide(const int dim, const mps__cg_recurrence *f, int64_t i)
 }
 MPS__LOOP_ANY(decisions, decide, mps__cg_recurrence)
 
-/* The first direction is z itself. */
+/* The next direction, p = z + beta p; the first one is z itself. */
 MPS_ROW void redirect(const int dim, const mps__cg_recurrence *f, int64_t i)
 {
     (void)dim;

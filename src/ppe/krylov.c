@@ -86,7 +86,7 @@ static void drop_arrays(krylov *k)
 
 /* Whether a problem is solved by conjugate gradients whose sums stay on a device. On many ranks the
  * host reduces the sums. */
-static bool stays_device(const krylov *k, const mps_ppe_problem *problem)
+static bool stays_on_device(const krylov *k, const mps_ppe_problem *problem)
 {
     return k->kind->symmetric && mps__device_of(problem->parallel) && !problem->ranks;
 }
@@ -168,7 +168,7 @@ static bool prepare(krylov *k, const mps_ppe_problem *problem)
     const int64_t columns = mps__columns(problem);
     k->space.problem = problem;
     return (k->start && columns <= k->space.capacity) ||
-           make_arrays(k, columns + columns / 32 + 1, stays_device(k, problem));
+           make_arrays(k, columns + columns / 32 + 1, stays_on_device(k, problem));
 }
 
 /* ---- solution ---- */
@@ -296,7 +296,7 @@ void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_pre
 {
     krylov *k = self;
     mps__result_begin(result);
-    if (!stays_device(k, problem)) mps__guess_clean(problem, p);
+    if (!stays_on_device(k, problem)) mps__guess_clean(problem, p);
     if (!prepare(k, problem)) return;
     k->problem = problem;
     k->pc = pc;

@@ -100,7 +100,7 @@ static inline search_buffers search_buffers_of(int64_t n)
                                    .end = allocate(n, sizeof(int64_t)),
                                    .count = allocate(n, sizeof(int32_t)),
                                    .idle = allocate(n, 1),
-                                   .boundary = allocate(n, 1)}};
+                                   .near_dummies = allocate(n, 1)}};
     r.search.key = r.order.key;
     return r;
 }
@@ -114,7 +114,7 @@ static inline void search_buffers_free(search_buffers *r)
     free(r->search.end);
     free(r->search.count);
     free(r->search.idle);
-    free(r->search.boundary);
+    free(r->search.near_dummies);
 }
 
 /* Lists of the host and of the loops: equal rows, contiguous in the second. */
@@ -123,7 +123,7 @@ static inline void same_rows(const mps_neighbours *l, const mps__search_arrays *
     int64_t begin = 0;
     for (int64_t i = 0; i < l->n; i++) {
         assert_int_equal(on_device->idle[i], l->idle[i]);
-        assert_int_equal(on_device->boundary[i], l->boundary[i]);
+        assert_int_equal(on_device->near_dummies[i], l->near_dummies[i]);
         assert_int_equal(on_device->count[i], l->count[i]);
         assert_int_equal(on_device->begin[i], begin);
         assert_int_equal(on_device->middle[i] - begin, l->middle[i] - l->begin[i]);

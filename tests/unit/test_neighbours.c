@@ -315,10 +315,10 @@ static void rows_of_kinds(void **state)
             else
                 check_row(&c, &t, i, far_radius);
             if (kinds && kind[i] == MPS_FLUID && depth > 2 * CLOUD_DP - far_radius)
-                assert_int_equal(l.boundary[i], 1);
-            if (!kinds || kind[i] != MPS_FLUID) assert_int_equal(l.boundary[i], 0);
+                assert_int_equal(l.near_dummies[i], 1);
+            if (!kinds || kind[i] != MPS_FLUID) assert_int_equal(l.near_dummies[i], 0);
         }
-        assert_int_equal(l.boundary[c.n - 1], 0); /* fluid far above the wall */
+        assert_int_equal(l.near_dummies[c.n - 1], 0); /* fluid far above the wall */
     }
     mps__neighbours_free(&l);
     free(kind);

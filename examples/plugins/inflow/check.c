@@ -124,7 +124,7 @@ static void run_rank(void *argument, int32_t rank)
               steps(sim, r, &wanted, MIDDLE, STEPS);
     }
     if (!bad && mps_energy_get(sim, &e) < 0) bad = report(sim, "energy");
-    if (!bad && mps_particles_collect(sim) < 0) bad = report(sim, "gather");
+    if (!bad && mps_particles_collect(sim) < 0) bad = report(sim, "collect");
     if (!bad && rank == 0) {
         r->end->energy = e;
         bad = note(sim, r->end);

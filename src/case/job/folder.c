@@ -13,7 +13,7 @@
 #include <unistd.h>
 
 enum {
-    FOLDER_CAPACITY = 65536, /* bytes that must fit on the disk */
+    FOLDER_BYTES = 65536, /* that must fit on the disk */
     FOLDER_HOST = 128,
     FOLDER_STALE = 900 /* [s] age at which an unrenewed lock of another machine expires */
 };
@@ -106,7 +106,7 @@ static mps_status folder_refuse_locked(const folder *f, int fd, char *error, siz
 /* Whether the disk has space for the first files. A full disk often accepts a name and no data. */
 static bool folder_has_space(int fd)
 {
-    static const char zeros[FOLDER_CAPACITY];
+    static const char zeros[FOLDER_BYTES];
     const ssize_t written = pwrite(fd, zeros, sizeof zeros, 0);
     if (written >= 0 && written < (ssize_t)sizeof zeros) errno = ENOSPC;
     const bool good = written == (ssize_t)sizeof zeros && fsync(fd) == 0;

@@ -58,8 +58,8 @@ static double weight_stiffness(const build *b, const build_motion *m, double mas
     return tilts ? -mass * b->gravity * (place[1] - m->centre[1]) : 0;
 }
 
-static void message(build *b, const tree_node *node, const char *key, int32_t degree,
-                    const char *text)
+static void log_error(build *b, const tree_node *node, const char *key, int32_t degree,
+                      const char *text)
 {
     mps__case_log(b->c, mps__tree_find(node, key), false, "body.%s.%s: %s", mps__degrees[degree],
                   key, text);
@@ -78,16 +78,16 @@ static void read_spring(build *b, build_body *body, const tree_node *node, int32
     double spring = mps__read_number(b->c, node, "stiffness", 0);
     const double period = mps__read_number(b->c, node, "period", 0);
     if (period > 0 && !(mass > 0)) {
-        message(b, node, "period", degree, "needs a mass, or an inertia; give a stiffness");
+        log_error(b, node, "period", degree, "needs a mass, or an inertia; give a stiffness");
         return;
     }
     if (period > 0) spring = mass * turn * turn / (period * period) - weight;
     double damping = mps__read_number(b->c, node, "damping", 0);
     if (mps__read_is(b->c, node, "damping", UNIT_SHARE) && damping > 0) {
         if (!(mass > 0) || !(spring + weight > 0)) {
-            message(b, node, "damping", degree,
-                    "a share needs a mass and a stiffness that outweighs the body's weight; give "
-                    "N s/m, or N m s/rad of a turn");
+            log_error(b, node, "damping", degree,
+                      "a share needs a mass and a stiffness that outweighs the body's weight; give "
+                      "N s/m, or N m s/rad of a turn");
             return;
         }
         damping *= 2 * sqrt(mass * (spring + weight));

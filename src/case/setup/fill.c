@@ -19,7 +19,7 @@ static bool done(const filling *f, mps_status status)
     return mps__build_try(f->b, status, f->map, f->name);
 }
 
-static void message(const filling *f, const char *key, const char *text)
+static void log_error(const filling *f, const char *key, const char *text)
 {
     const tree_node *at = mps__tree_find(f->map, key);
     mps__case_log(f->b->c, at ? at : f->map, false, "fill.%s.%s: %s", f->name, key, text);
@@ -78,10 +78,10 @@ static void fill_standing(filling *f)
                                               "standing_wave", NAN);
     if (mps__case_failed(b->c)) return;
     if (b->dim == 3 || t->kind != FORM_BOX || b->tank.file || t->lo[0] != 0 || t->lo[1] != 0)
-        message(f, "start",
-                "a standing wave is for rectangular tanks in 2-D that begin at x = y = 0");
+        log_error(f, "start",
+                  "a standing wave is for rectangular tanks in 2-D that begin at x = y = 0");
     else if (!(fabs(amplitude) < 0.5 * b->depth))
-        message(f, "start", "the amplitude must be less than half of the depth");
+        log_error(f, "start", "the amplitude must be less than half of the depth");
     else
         add_displaced(f, amplitude, b->depth);
 }
@@ -105,7 +105,7 @@ static void fill_depth(filling *f)
         char text[BUILD_TEXT];
         snprintf(text, sizeof text, "%.9g m is more than the tank is high, %.9g m", b->depth,
                  height);
-        message(f, "depth", text);
+        log_error(f, "depth", text);
         return;
     }
     if (mps__tree_find(mps__tree_find(f->map, "start"), "standing_wave")) {
@@ -220,7 +220,7 @@ static bool read_drop(filling *f, drop *o)
     const double share = mps__read_number(b->c, mps__tree_find(f->map, "start"), "oscillation",
                                           NAN);
     if (b->dim == 3 || b->fluids != 2 || !mps__tree_find(f->map, "sphere")) {
-        message(f, "start", "an oscillation is for 'sphere' in 2-D and two fluids");
+        log_error(f, "start", "an oscillation is for 'sphere' in 2-D and two fluids");
         return false;
     }
     read_ball(f, &s);

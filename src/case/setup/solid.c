@@ -17,7 +17,7 @@ typedef struct reading {
     build_solid *out;
 } reading;
 
-static void message(const reading *r, const char *key, const char *text)
+static void log_error(const reading *r, const char *key, const char *text)
 {
     const tree_node *at = mps__tree_find(r->map, key);
     mps__case_log(r->b->c, at ? at : r->map, false, "solids.%s.%s: %s", r->name, key, text);
@@ -60,7 +60,7 @@ static openings read_openings(reading *r, const plate *p)
                  "slots of %.4g m with %.4g m between them: each must be at least 2 dp wide, %.4g "
                  "m; take a smaller dp or a larger pitch",
                  r->out->gap, r->out->pitch - r->out->gap, 2 * r->b->dp);
-        message(r, "holes", text);
+        log_error(r, "holes", text);
     }
     return o;
 }
@@ -108,7 +108,7 @@ static bool read_plate(reading *r, plate *p)
         p->length[e] = sqrt(p->edge[e][0] * p->edge[e][0] + p->edge[e][1] * p->edge[e][1] +
                             p->edge[e][2] * p->edge[e][2]);
     if (!(p->length[0] > 0) || (b->dim == 3 && !(p->length[1] > 0))) {
-        message(r, "plate", "has no area: its points are on one line");
+        log_error(r, "plate", "has no area: its points are on one line");
         return false;
     }
     p->axis = flat_across(p, b->dim);
@@ -304,9 +304,9 @@ static void add_cylinder(reading *r)
     s->radius = mps__read_number(r->b->c, node, "radius", NAN);
     const double *from = s->end[0], *to = s->end[1];
     if (from[0] == to[0] && from[1] == to[1] && from[2] == to[2] && !mps__case_failed(r->b->c))
-        message(r, "cylinder", "has no length: 'from' and 'to' are one point");
+        log_error(r, "cylinder", "has no length: 'from' and 'to' are one point");
     if (r->b->dim == 2 && !mps__case_failed(r->b->c))
-        message(r, "cylinder", "is for 3-D; in 2-D take 'sphere', a circle");
+        log_error(r, "cylinder", "is for 3-D; in 2-D take 'sphere', a circle");
     add_body(r, "cylinder");
 }
 

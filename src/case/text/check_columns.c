@@ -55,7 +55,8 @@ static void check_entry(mps_case *c, const tree_node *sensors, const tree_node *
     char known[LISTED_CAPACITY] = "";
     size_t used = 0;
     const char *dot = node->kind == TREE_TEXT ? strrchr(node->text, '.') : NULL;
-    if (!dot || dot == node->text || strpbrk(node->text, "[], \"")) return; /* told by the sweep */
+    if (!dot || dot == node->text || strpbrk(node->text, "[], \""))
+        return; /* the check of the sweep reports it */
     if (is_column(sensors, node->text, (size_t)(dot - node->text))) return;
     for (const tree_node *n = sensors ? sensors->first : NULL; n && used < sizeof known;
          n = n->next)

@@ -99,7 +99,7 @@ static int32_t compare(mps__place a, int32_t source, const mps_case_message *m)
 }
 
 /* Insert an empty message in the order of positions. @return its index, or -1 */
-static int32_t reserve_more(mps_case *c, mps__place at)
+static int32_t insert_message(mps_case *c, mps__place at)
 {
     int32_t k = c->messages;
     while (k > 0 && compare(at, c->message_source[k - 1], &c->message[k - 1]) < 0) k--;
@@ -126,7 +126,7 @@ void mps__case_log_at(mps_case *c, mps__place at, bool warning, const char *form
             return;
     const char *kept = mps__case_copy(c, text, strlen(text));
     const char *line = source_line(c, s, at.line);
-    const int32_t k = kept ? reserve_more(c, at) : -1;
+    const int32_t k = kept ? insert_message(c, at) : -1;
     if (k < 0) return;
     c->message_source[k] = at.source;
     c->message[k] = (mps_case_message){.struct_size = sizeof(mps_case_message),

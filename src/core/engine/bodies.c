@@ -176,7 +176,7 @@ int mps__bodies_away(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     mps__device *d = &h->memory.device;
     const size_t bytes = (size_t)s->view->n * sizeof *role;
     const int32_t used = h->scratch_used;
-    const mps_view *on_device = mps__runner_begin_serial(s);
+    const mps_view *device_view = mps__runner_begin_serial(s);
     int32_t *own_role = mps_stage_scratch_integers(s, s->view->n),
             *own_body = mps_stage_scratch_integers(s, s->view->n);
     int failed = !own_role || !own_body;
@@ -187,7 +187,7 @@ int mps__bodies_away(mps_stage *s, int32_t most, const int32_t *role, int32_t *b
     }
     if (!failed) mps__device_upload(d, body, own_body, bytes);
     h->scratch_used = used;
-    mps__runner_end_serial(s, on_device);
+    mps__runner_end_serial(s, device_view);
     return failed;
 }
 

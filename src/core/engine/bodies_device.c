@@ -172,7 +172,7 @@ static int number_on_rank(mps_stage *s, int64_t count, int32_t most, const joini
 {
     mps__runner *h = s->host;
     mps__device *d = &h->memory.device;
-    const mps_view *on_device = mps__runner_begin_serial(s);
+    const mps_view *device_view = mps__runner_begin_serial(s);
     int64_t *own = (int64_t *)(void *)mps_stage_scratch(s, 2 * count + 1);
     int32_t *body = mps_stage_scratch_integers(s, count + 1);
     int failed = !own || !body;
@@ -186,7 +186,7 @@ static int number_on_rank(mps_stage *s, int64_t count, int32_t most, const joini
         failed = status < 0;
         mps__device_upload(d, given, body, (size_t)count * sizeof *body);
     }
-    mps__runner_end_serial(s, on_device);
+    mps__runner_end_serial(s, device_view);
     return failed;
 }
 

@@ -331,7 +331,7 @@ void *mps__memory_workspace(mps__memory *t, int32_t block, size_t bytes)
 
 void *mps__memory_scratch(mps__memory *t, int32_t block, size_t bytes)
 {
-    void *capacity = mps__memory_workspace(t, block, bytes);
-    if (capacity) mps__device_clear(&t->device, capacity, t->scratch[block].bytes);
-    return capacity;
+    void *array = mps__memory_workspace(t, block, bytes);
+    if (array) mps__device_clear(&t->device, array, t->scratch[block].bytes);
+    return array;
 }

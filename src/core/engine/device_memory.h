@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Fields, channels and neighbour lists have mirrors in device memory (array.h). These functions
- * say when they are copied, and which address a loop gets. Other arrays are transferred where they
- * are used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
+ * determine when they are copied, and which address a loop gets. Other arrays are transferred where
+ * they are used: the pressure equation (ppe_device.c, solvers_device.c), pressure data, halos
  * (ghosts_device.c), results of reductions (deferred.c, reaction.c), rigid bodies, voids, grids of
  * auxgrid. Without a device everything is on the host. */
 #ifndef MPS_CORE_DEVICE_MEMORY_H
@@ -22,7 +22,7 @@ enum {
     MPS__ROWS_COLUMNS,
     MPS__IDLE_ROWS,
     MPS__NEAR_PLATE_SLOTS,
-    MPS__BOUNDARY_ROWS,
+    MPS__NEAR_DUMMIES,
     MPS__SEARCHED, /* positions of the particles at the last search */
     MPS__LASTING,  /* blocks before it persist until the next search, others for a step */
     MPS__NEAR_BEGIN = MPS__LASTING,

@@ -21,7 +21,7 @@ static mps__array *field_of(mps__memory *t, int32_t field)
 
 /* Add copies outside of a step to the counters of the previous step. Failed copies may be
  * repeated. */
-static mps_status copied(mps__memory *t, const mps_device_info *before)
+static mps_status count_copies(mps__memory *t, const mps_device_info *before)
 {
     const mps_device_info *now = &t->device.info;
     const mps_status status = mps__device_status(&t->device);
@@ -44,7 +44,7 @@ static mps_status fetch(mps__memory *t, int32_t first, int32_t end)
     const mps_device_info before = t->device.info;
     MPS__TRY(mps__memory_alive(t));
     for (int32_t k = first; k < end; k++) mps__array_copy(field_of(t, k), MPS__ON_HOST);
-    return copied(t, &before);
+    return count_copies(t, &before);
 }
 
 mps_status mps__memory_fetch(mps__memory *t)
@@ -73,7 +73,7 @@ static void blocks_ready(mps__memory *t, int32_t end)
  * the host already has. */
 static bool lacks_candidates(const mps__memory *t)
 {
-    return t->torn || !mps__array_valid(&t->block[MPS__BOUNDARY_ROWS], MPS__ON_HOST);
+    return t->torn || !mps__array_valid(&t->block[MPS__NEAR_DUMMIES], MPS__ON_HOST);
 }
 
 mps_status mps__memory_fetch_lists(mps__memory *t)
@@ -81,7 +81,7 @@ mps_status mps__memory_fetch_lists(mps__memory *t)
     const mps_device_info before = t->device.info;
     MPS__TRY(mps__memory_alive(t));
     if (lacks_candidates(t)) blocks_ready(t, MPS__LASTING);
-    return copied(t, &before);
+    return count_copies(t, &before);
 }
 
 mps_status mps__memory_fetch_searched(mps__memory *t)
@@ -89,7 +89,7 @@ mps_status mps__memory_fetch_searched(mps__memory *t)
     const mps_device_info before = t->device.info;
     MPS__TRY(mps__memory_alive(t));
     mps__array_copy(&t->block[MPS__SEARCHED], MPS__ON_HOST);
-    return copied(t, &before);
+    return count_copies(t, &before);
 }
 
 void mps__memory_sync_rows(mps__memory *t)

@@ -7,12 +7,12 @@
 #include <math.h>
 #include <mps/reaction.h>
 
-/* Indices of particles are in `space`: 1 + index in mps__reactions, 0: not counted. */
+/* `index` of a particle: 1 + index in mps__reactions; 0: not counted */
 typedef struct report {
     const int32_t *kind;
     const uint8_t *ghost; /* NULL: none */
     const double *x, *rho, *acceleration;
-    int32_t *space; /* NULL: all particles belong to `wanted` */
+    int32_t *index; /* NULL: all particles belong to `wanted` */
     int32_t wanted;
     double volume; /* of a particle */
     double centre[3];
@@ -23,7 +23,7 @@ MPS_ROW void add_row(const int dim, const report *k, int64_t i, double *values)
 {
     double r[3] = {0};
     if (k->kind[i] != MPS_FLUID || !mps__owns(k->ghost, i)) return;
-    if (k->space && k->space[i] != k->wanted + 1) return;
+    if (k->index && k->index[i] != k->wanted + 1) return;
     const double mass = k->rho[i] * k->volume;
     for (int d = 0; d < dim; d++) {
         values[d] = mass * k->acceleration[i * dim + d];
@@ -43,18 +43,18 @@ static const char not_finite[] =
     "the acceleration that a solid gives the fluid, by mps_stage_reaction(), is not finite";
 
 /* Add the particles of one index. @return non-zero: not finite */
-static int add_place(mps_stage *s, mps__runner *h, report *k, int32_t space)
+static int add_index(mps_stage *s, mps__runner *h, report *k, int32_t index)
 {
     mps_exact sums[6] = {{{0}, 0, 0}};
     mps_exact(*all)[6] = h->reactions.sum;
     double none[1];
     const int32_t line = line_of(s, h);
-    k->wanted = space;
+    k->wanted = index;
     h->reactions.on_host = true;
     mps__values_run(h->parallel, &add_rows, s->view->dim, s->view->n, k, sums, none);
     for (int d = 0; d < 6; d++) {
         if (!isfinite(mps_exact_value(&sums[d]))) return mps_stage_fail(s, "%s", not_finite);
-        mps_exact_join(&all[space][d], &sums[d]);
+        mps_exact_join(&all[index][d], &sums[d]);
         mps_exact_join(&all[line][d], &sums[d]);
     }
     return 0;
@@ -180,7 +180,7 @@ MPS_ROW int64_t nearest_solid(const int dim, const mps_view *v, int64_t i)
 typedef struct place_fields {
     const double *acceleration;
     const int32_t *part;
-    int32_t *space;
+    int32_t *index;
 } place_fields;
 
 MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, int64_t i)
@@ -188,7 +188,7 @@ MPS_ROW void place_row(const int dim, const mps_view *v, const place_fields *f, 
     const double *a = f->acceleration + i * dim;
     if (!mps_is_fluid(v, i) || (a[0] == 0 && a[1] == 0 && (dim == 2 || a[2] == 0))) return;
     const int64_t solid = nearest_solid(dim, v, i);
-    f->space[i] = MPS__REACTION_WHOLE + 2 + (solid < 0 ? -1 : f->part[solid]);
+    f->index[i] = MPS__REACTION_WHOLE + 2 + (solid < 0 ? -1 : f->part[solid]);
 }
 MPS_ROWS(place_rows, place_row, place_fields)
 
@@ -196,16 +196,16 @@ MPS_ROWS(place_rows, place_row, place_fields)
 static int add_beside(mps_stage *s, mps__runner *h, report *k)
 {
     bool used[MPS__REACTIONS + 1] = {false};
-    k->space = mps_stage_scratch_integers(s, s->view->n);
-    if (!k->space) return 1;
+    k->index = mps_stage_scratch_integers(s, s->view->n);
+    if (!k->index) return 1;
     mps_stage_rows(
         s, &place_rows,
-        &(place_fields){k->acceleration, mps__memory_read(&h->memory, MPS__FIELD_PART), k->space});
+        &(place_fields){k->acceleration, mps__memory_read(&h->memory, MPS__FIELD_PART), k->index});
     if (h->memory.space == MPS__ON_DEVICE) return add_device(s, h, k);
-    for (int64_t i = 0; i < s->view->n; i++) used[k->space[i]] = true;
+    for (int64_t i = 0; i < s->view->n; i++) used[k->index[i]] = true;
     int failed = 0;
-    for (int32_t space = MPS__REACTION_WHOLE; space < MPS__REACTIONS && !failed; space++)
-        if (used[space + 1]) failed = add_place(s, h, k, space);
+    for (int32_t index = MPS__REACTION_WHOLE; index < MPS__REACTIONS && !failed; index++)
+        if (used[index + 1]) failed = add_index(s, h, k, index);
     return failed;
 }
 
@@ -233,7 +233,7 @@ int mps_stage_reaction(mps_stage *s, const char *part, const double *acceleratio
                               part);
     h->reactions.any = true;
     for (int d = 0; d < 3; d++) k.centre[d] = v->tank.centre[d] + v->tank.shift[d];
-    return part ? add_place(s, h, &k, MPS__REACTION_WHOLE + 1 + number) : add_beside(s, h, &k);
+    return part ? add_index(s, h, &k, MPS__REACTION_WHOLE + 1 + number) : add_beside(s, h, &k);
 }
 
 int mps_stage_kinetic(mps_stage *s, double kinetic)

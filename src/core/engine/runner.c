@@ -127,7 +127,7 @@ static mps_status check_after(const mps__runner *h, const mps_stage *s, const mp
 /* ---- ghosts ---- */
 
 /* Halo exchange of the listed channels whose ghosts are stale. */
-static mps_status share(mps__runner *h, const int32_t *channel, int32_t count)
+static mps_status exchange(mps__runner *h, const int32_t *channel, int32_t count)
 {
     mps__halo_array shared[MPS__USES + MPS__FLUX_CHANNELS];
     int32_t found = 0;
@@ -150,7 +150,7 @@ void mps__runner_all_alike(mps__runner *h)
 
 /* Halo exchange of channels that the call reads at neighbours; from MPS_FORCE on also of the pair
  * flux channels, which need no declared use. */
-static mps_status share_before(mps__runner *h, const mps__call *call)
+static mps_status exchange_before(mps__runner *h, const mps__call *call)
 {
     int32_t channel[MPS__USES + MPS__FLUX_CHANNELS], count = 0;
     bool pairs = call->model != NULL;
@@ -164,7 +164,7 @@ static mps_status share_before(mps__runner *h, const mps__call *call)
         mps__flux_channels(h->channels, channel + count);
         count += MPS__FLUX_CHANNELS;
     }
-    return share(h, channel, count);
+    return exchange(h, channel, count);
 }
 
 static mps__array *array_of(const mps__runner *h, int32_t channel)
@@ -273,17 +273,17 @@ static void make_ready(mps__runner *h, const mps__call *call, int32_t space)
 const mps_view *mps__runner_begin_serial(mps_stage *s)
 {
     mps__runner *h = s->host;
-    const mps_view *on_device = s->view;
+    const mps_view *device_view = s->view;
     mps__memory_set_space(&h->memory, MPS__ON_HOST);
     s->view = h->view;
-    return on_device;
+    return device_view;
 }
 
-void mps__runner_end_serial(mps_stage *s, const mps_view *on_device)
+void mps__runner_end_serial(mps_stage *s, const mps_view *device_view)
 {
     mps__runner *h = s->host;
     mps__memory_set_space(&h->memory, MPS__ON_DEVICE);
-    s->view = on_device;
+    s->view = device_view;
 }
 
 void mps__runner_switch_to_host(mps_stage *s)
@@ -333,7 +333,7 @@ static mps_status run_verb(mps__runner *h, mps_stage *s, const mps__call *call)
 static mps_status run_call(mps__runner *h, mps_stage *s, mps_view *v, mps__call *call)
 {
     void *data[MPS__USES];
-    mps_view on_device;
+    mps_view device_view;
     const int32_t space = space_of(h, call);
     h->view = v;
     h->call = call;
@@ -348,9 +348,9 @@ static mps_status run_call(mps__runner *h, mps_stage *s, mps_view *v, mps__call 
     h->with_ghosts = call->pass && call->pass->with_ghosts;
     mps__memory_set_space(&h->memory, space);
     if (space == MPS__ON_DEVICE) {
-        on_device = *v;
-        mps__memory_view(&h->memory, &on_device);
-        s->view = &on_device;
+        device_view = *v;
+        mps__memory_view(&h->memory, &device_view);
+        s->view = &device_view;
     }
     mps_status status = call->pass ? call->pass->run(s) : run_verb(h, s, call);
     mps__memory_set_space(&h->memory, MPS__ON_HOST);
@@ -444,7 +444,7 @@ mps_status mps__runner_run(mps__runner *h, mps_stage *s, mps_view *v, int32_t ho
         const double limit = s->dt_limit;
         if (is_idle(h, call)) continue;
         if (h->before_call) h->before_call(h->step, call);
-        status = share_before(h, call);
+        status = exchange_before(h, call);
         h->memory.device.info.host_calls += h->memory.open && space_of(h, call) == MPS__ON_HOST;
         begin_channels(h, call, space_of(h, call));
         make_ready(h, call, space_of(h, call));

@@ -110,7 +110,7 @@ double *mps__deferred_maxima(mps__runner *h, int32_t count, mps__then then);
 /* Begin serial work on the host in a call on a device: until the end the view has host arrays.
  * @return the device view */
 const mps_view *mps__runner_begin_serial(mps_stage *s);
-void mps__runner_end_serial(mps_stage *s, const mps_view *on_device);
+void mps__runner_end_serial(mps_stage *s, const mps_view *device_view);
 /* Run the rest of a device verb on the host: its loops, scratch and s->data. The verb must not have
  * written anything yet. The first host loop copies its channels to the host; without such a loop
  * nothing is copied. */

@@ -127,7 +127,7 @@ static void run_launch(const void *host, int64_t begin, int64_t end, mps_exact *
 }
 
 /* Mask of a loop: particles of other ranks. */
-static const uint8_t *skip_of(const job *k, mps__device *d)
+static const uint8_t *mask_of(const job *k, mps__device *d)
 {
     return k->rows && k->h->with_ghosts ? NULL : mps__ghosts_seen(k->h->ghosts, d);
 }
@@ -150,7 +150,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     mps__memory_loop_view((mps__memory *)&h->memory,
                           h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
     k.v = &v;
-    k.mask = skip_of(&k, d);
+    k.mask = mask_of(&k, d);
     mps_launch l = {.dim = v.dim,
                     .n = v.n,
                     .file = file_of(&k),

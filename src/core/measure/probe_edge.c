@@ -53,16 +53,16 @@ static double from_edge(const mps__face *f, const mps__face_point *u, const mps_
     return square;
 }
 
-static mps_status add_share(mps__edges *e, mps__context *c, mps__edge_weight share)
+static mps_status add_weight(mps__edges *e, mps__context *c, mps__edge_weight weight)
 {
-    MPS__TRY(mps__grow(c, (void **)&e->share, &e->share_capacity, e->shares, e->shares + 1,
-                       sizeof share));
-    e->share[e->shares++] = share;
+    MPS__TRY(mps__grow(c, (void **)&e->weight, &e->weight_capacity, e->weights, e->weights + 1,
+                       sizeof weight));
+    e->weight[e->weights++] = weight;
     return MPS_OK;
 }
 
 /* Weights of the particles around an edge; none if they do not define a line. */
-static mps_status find_shares(mps__edges *e, mps__context *c, const mps__face *f, int64_t of)
+static mps_status find_weights(mps__edges *e, mps__context *c, const mps__face *f, int64_t of)
 {
     double m[6] = {0}, column[3], q[2], sum = 0;
     const mps__face_point *edge = &f->list[of];
@@ -77,7 +77,7 @@ static mps_status find_shares(mps__edges *e, mps__context *c, const mps__face *f
     for (int64_t k = 0; k < f->count; k++) {
         const double square = from_edge(f, &f->list[k], edge, q), w = weight_at(square, far);
         if (!f->list[k].inside || w == 0) continue;
-        MPS__TRY(add_share(
+        MPS__TRY(add_weight(
             e, c,
             (mps__edge_weight){.of = k,
                                .mean = weight_at(square, near) / sum,
@@ -90,13 +90,13 @@ mps_status mps__edges_find(mps__edges *e, mps__context *c, const mps__face *f)
 {
     *e = (mps__edges){0};
     for (int64_t k = 0; k < f->count; k++) {
-        const int64_t first = e->shares;
+        const int64_t first = e->weights;
         if (!f->list[k].edge || f->list[k].weight == 0) continue;
-        MPS__TRY(find_shares(e, c, f, k));
-        if (e->shares == first) continue;
+        MPS__TRY(find_weights(e, c, f, k));
+        if (e->weights == first) continue;
         MPS__TRY(
             mps__grow(c, (void **)&e->list, &e->capacity, e->count, e->count + 1, sizeof *e->list));
-        e->list[e->count++] = (mps__edge){k, first, e->shares - first};
+        e->list[e->count++] = (mps__edge){k, first, e->weights - first};
     }
     return MPS_OK;
 }
@@ -104,7 +104,7 @@ mps_status mps__edges_find(mps__edges *e, mps__context *c, const mps__face *f)
 void mps__edges_free(mps__edges *e, mps__context *c)
 {
     mps__free(c, e->list);
-    mps__free(c, e->share);
+    mps__free(c, e->weight);
     *e = (mps__edges){0};
 }
 
@@ -119,8 +119,8 @@ void mps__edges_apply(const mps__edges *e, double *p)
         const mps__edge *edge = &e->list[k];
         double mean = 0, line = 0;
         for (int64_t m = edge->first; m < edge->first + edge->count; m++) {
-            mean += e->share[m].mean * p[e->share[m].of];
-            line += e->share[m].line * p[e->share[m].of];
+            mean += e->weight[m].mean * p[e->weight[m].of];
+            line += e->weight[m].line * p[e->weight[m].of];
         }
         p[edge->of] = median(p[edge->of], mean, line);
     }

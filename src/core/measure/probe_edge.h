@@ -19,9 +19,9 @@ typedef struct mps__edge {
 } mps__edge;
 
 typedef struct mps__edges {
-    int64_t count, capacity, shares, share_capacity;
+    int64_t count, capacity, weights, weight_capacity;
     mps__edge *list;
-    mps__edge_weight *share;
+    mps__edge_weight *weight;
 } mps__edges;
 
 /* Find the weights for all edge particles that have a sensor weight. */

@@ -20,7 +20,7 @@ static const double flat = 0.25, beside = 1.6, cover = 1.2, foot_gap = 1.3, arou
 
 /* Cosines: of the largest angle between a normal and the requested one, and of the smallest angle
  * between two faces. */
-static const double looks_at = 0.8660254037844386, looks_elsewhere = 0.9;
+static const double cosine_requested = 0.8660254037844386, cosine_other = 0.9;
 
 /* Cosine of the smallest angle between faces at an edge, 39 degrees. A curved face of radius 5 dp
  * turns by less within the reach of a sensor. */
@@ -120,7 +120,7 @@ static bool is_wanted(const mps__face *f, const solid *e)
 {
     const double most = (near + 1e-6) * f->dp;
     return !f->wanted ||
-           (mps__dot(e->n, f->wanted, 3) >= looks_at && remoteness(f, e) <= most * most);
+           (mps__dot(e->n, f->wanted, 3) >= cosine_requested && remoteness(f, e) <= most * most);
 }
 
 /* Closest wall particle of a face. At equal distance the one facing the sensor, then the lower id.
@@ -233,7 +233,7 @@ static mps_status find_base(mps__face *f, mps__world *w, const mps_probe *c)
 /* Whether the particle belongs to a face with another normal. */
 static bool on_other_face(const mps__face *f, const solid *e)
 {
-    return mps__dot(e->n, f->normal, 3) < looks_elsewhere && on_face(f, e);
+    return mps__dot(e->n, f->normal, 3) < cosine_other && on_face(f, e);
 }
 
 const mps__face_solid *mps__face_rival(mps__face *f)
@@ -386,7 +386,7 @@ static void mark_edges(mps__face *f)
         for (int64_t m = 0; m < f->count; m++) {
             if (f->list[m].id != e->id) continue;
             f->list[m].edge = edge;
-            f->list[m].inside = !edge && mps__dot(e->n, f->normal, 3) >= looks_elsewhere;
+            f->list[m].inside = !edge && mps__dot(e->n, f->normal, 3) >= cosine_other;
         }
     }
 }

@@ -199,7 +199,7 @@ static mps_status keep_weights(mps__context *c, mps__face *f, mps__sensor *senso
     MPS__TRY(mps__grow(c, (void **)&sensor->list, &sensor->capacity, 0, f->count > 0 ? f->count : 1,
                        sizeof *sensor->list));
     for (int64_t k = 0; k < f->count; k++) f->list[k].number = f->list[k].weight != 0 ? 0 : -1;
-    for (int64_t m = 0; m < edges->shares; m++) f->list[edges->share[m].of].number = 0;
+    for (int64_t m = 0; m < edges->weights; m++) f->list[edges->weight[m].of].number = 0;
     sensor->count = 0;
     for (int64_t k = 0; k < f->count; k++) {
         if (f->list[k].number < 0) continue;
@@ -209,8 +209,8 @@ static mps_status keep_weights(mps__context *c, mps__face *f, mps__sensor *senso
     }
     for (int64_t k = 0; k < edges->count; k++)
         edges->list[k].of = f->list[edges->list[k].of].number;
-    for (int64_t m = 0; m < edges->shares; m++)
-        edges->share[m].of = f->list[edges->share[m].of].number;
+    for (int64_t m = 0; m < edges->weights; m++)
+        edges->weight[m].of = f->list[edges->weight[m].of].number;
     return MPS_OK;
 }
 

@@ -63,7 +63,7 @@ static mps_status reserve(mps_neighbours *l, int64_t n)
              {(void **)&l->near_begin, mps__scan_size(wanted + 1), sizeof *l->near_begin, NULL},
              {(void **)&l->searched, wanted * l->dim, sizeof *l->searched, NULL},
              {(void **)&l->idle, wanted, sizeof *l->idle, NULL},
-             {(void **)&l->boundary, wanted, sizeof *l->boundary, NULL}};
+             {(void **)&l->near_dummies, wanted, sizeof *l->near_dummies, NULL}};
     const size_t count = sizeof a / sizeof a[0];
     for (size_t k = 0; k < count; k++) {
         a[k].fresh = mps__alloc(c, a[k].count, a[k].size);
@@ -109,7 +109,7 @@ typedef struct search {
     const uint8_t *ghost;         /* NULL: single rank */
     int64_t *begin, *middle, *end;
     int32_t *count, *col;
-    uint8_t *boundary, *idle;
+    uint8_t *near_dummies, *idle;
     atomic_int_least64_t *taken; /* entries of col that the rows need; may exceed its capacity */
     /* [MPS__PARTS] longest row of each part if it exceeds the stack buffer, else 0 */
     int64_t *longest;
@@ -289,7 +289,7 @@ MPS_ROW int64_t search_cell(const int dim, const bool sorted, const search *s, i
         const int32_t i = sorted ? (int32_t)a : s->order[a];
         const bool solid = s->kind && s->kind[i] != MPS_FLUID,
                    ghost = !mps__owns(s->ghost, i) && (solid || !s->ghost_rows);
-        s->boundary[i] = dummies && !solid && !ghost;
+        s->near_dummies[i] = dummies && !solid && !ghost;
         s->idle[i] = ghost || (solid && (!fluid || (s->kind[i] == MPS_DUMMY && !s->dummy_rows)));
         if (!s->idle[i]) find_row(dim, sorted, s, a, range, ranges, &f);
         if (!s->idle[i] && solid) s->idle[i] = !meets_fluid(s, &f);
@@ -361,7 +361,7 @@ static search search_of(const mps_neighbours *l, bool sorted)
                     .middle = l->middle,
                     .end = l->end,
                     .count = l->count,
-                    .boundary = l->boundary,
+                    .near_dummies = l->near_dummies,
                     .idle = l->idle};
 }
 

@@ -66,8 +66,8 @@ struct mps_neighbours {
     const uint8_t *ghost; /* NULL, or [n] 1: a ghost, which gets no row */
     /* unless this is set and it is fluid; rows at the edge of the ghost layer are incomplete */
     bool ghost_rows;
-    uint8_t *idle;     /* [n] 1: a skipped solid */
-    uint8_t *boundary; /* [n] 1: fluid with dummies nearby; 0 if there are no kinds */
+    uint8_t *idle;         /* [n] 1: a skipped solid */
+    uint8_t *near_dummies; /* [n] 1: fluid with dummies nearby; 0 if there are no kinds */
     /* NULL, or the occluders; their near-plate particles are up to date */
     const mps__occluders *occluders;
 };
@@ -95,8 +95,8 @@ typedef struct mps__order_arrays {
     uint64_t *key;  /* [2 n] workspace */
     int32_t *order; /* [2 n] order and workspace */
 } mps__order_arrays;
-/* The order of mps__neighbours_order() by loops on a device; the result is in there->order. NULL:
- * failed, mps__neighbours_order() reports the cause. */
+/* The order of mps__neighbours_order() by loops on a device; the result is in on_device->order.
+ * NULL: failed, mps__neighbours_order() reports the cause. */
 const int32_t *mps__neighbours_order_device(mps_neighbours *l, int64_t n, double re_far,
                                             const mps__order_arrays *on_device);
 /* To be called when the particles have been permuted into l->order. */
@@ -117,7 +117,7 @@ typedef struct mps__search_arrays {
     int64_t *begin; /* [n], with the workspace of its scan */
     int64_t *middle, *end;
     int32_t *count, *col;
-    uint8_t *idle, *boundary;
+    uint8_t *idle, *near_dummies;
 } mps__search_arrays;
 /* Count the candidates of each row, and allocate l->pairs entries. If l->longest > 0, a row is too
  * long for the functions below. `on_device` needs no `col`. */

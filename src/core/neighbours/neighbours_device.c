@@ -45,7 +45,7 @@ MPS_ROW void count_row(const int dim, const seeking *s, int64_t i)
             c.far += ring == 1;
             c.out += ring == 2;
         }
-    a->boundary[i] = dummies && !solid;
+    a->near_dummies[i] = dummies && !solid;
     a->idle[i] = !fluid || (a->kind[i] == MPS_DUMMY && !s->dummy_rows);
     if (a->idle[i]) c = (counted){0, 0, 0};
     a->middle[i] = c.near;

@@ -20,10 +20,10 @@ mps_status mps__neighbours_init(mps_neighbours *l, mps__context *context, int32_
 
 void mps__neighbours_release(mps_neighbours *l)
 {
-    void **const all[] = {(void **)&l->near_begin, (void **)&l->near_col, (void **)&l->begin,
-                          (void **)&l->middle,     (void **)&l->far_end,  (void **)&l->count,
-                          (void **)&l->col,        (void **)&l->w_r2,     (void **)&l->searched,
-                          (void **)&l->idle,       (void **)&l->boundary, (void **)&l->scratch};
+    void **const all[] = {(void **)&l->near_begin, (void **)&l->near_col,     (void **)&l->begin,
+                          (void **)&l->middle,     (void **)&l->far_end,      (void **)&l->count,
+                          (void **)&l->col,        (void **)&l->w_r2,         (void **)&l->searched,
+                          (void **)&l->idle,       (void **)&l->near_dummies, (void **)&l->scratch};
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         mps__free(l->context, *all[k]);
         *all[k] = NULL;

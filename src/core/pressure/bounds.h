@@ -53,9 +53,9 @@ enum { MPS__ROW_ACTIVE = 3 };
 void mps__bounds_init(mps__bounds *b, mps__context *context);
 void mps__bounds_free(mps__bounds *b);
 /* Solve the assembled equation for e->p, with p_i >= value_i in rows of MPS_ROW_LEAST, starting
- * with the active set b->held; the condition of active rows becomes MPS__ROW_ACTIVE. Iterations and
+ * with the active set b->active; the condition of active rows becomes MPS__ROW_ACTIVE. Iterations and
  * times of `result` are summed over all solutions. The arrays of the view and the terms, and
- * b->held, are in the memory space of the equation. */
+ * b->active, are in the memory space of the equation. */
 mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e, const mps_view *s,
                              mps__ppe_terms *t, mps_ppe_result *result);
 /* Solve the same matrix for another right side `rhs` [n]: a change of the pressures, which is 0 in

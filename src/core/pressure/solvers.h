@@ -67,7 +67,7 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
 
 /* Whether solver and preconditioner have device loops; whether this equation is solved on the
  * device. */
-bool mps__solvers_known_device(const mps__solvers *s);
+bool mps__solvers_support_device(const mps__solvers *s);
 bool mps__solvers_on_device(const mps__solvers *s, const mps_ppe_problem *problem);
 /* Solve on the device. The arrays and `p` are in the memory space of the problem's parallel-for:
  * host or device. MPS_E_NOMEM, MPS_E_PLUGIN */

@@ -23,7 +23,7 @@ static bool is_auxgrid(const mps_preconditioner_ops *pc)
     return pc->create == mps__preconditioner_auxgrid.create;
 }
 
-bool mps__solvers_known_device(const mps__solvers *s)
+bool mps__solvers_support_device(const mps__solvers *s)
 {
     return s->use->create == mps__solver_pcg.create &&
            (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
@@ -32,11 +32,12 @@ bool mps__solvers_known_device(const mps__solvers *s)
 bool mps__solvers_on_device(const mps__solvers *s, const mps_ppe_problem *e)
 {
     /* the halo exchange is in the memory space of the equation */
-    const bool known = mps__solvers_known_device(s) && (!e->ranks || mps__device_of(e->parallel));
+    const bool known = mps__solvers_support_device(s) && (!e->ranks || mps__device_of(e->parallel));
     return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 
-/* @param there  out: the equation with device arrays @param q  out: the pressures on the device */
+/* @param on_device  out: the equation with device arrays
+ * @param q          out: the pressures on the device */
 static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *p,
                        mps_ppe_problem *on_device, double **q)
 {

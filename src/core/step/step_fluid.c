@@ -297,7 +297,7 @@ static mps_status keep(mps_stage *s)
                              (mps__then){take_counts, q});
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
     mps__budget_deferred(w, (mps__then){take_last, q});
-    if (on_device && !w->work.bodies) mps__world_next_flags(w, &q->pose, q->next_flags);
+    if (on_device && !w->work.bodies) mps__world_request_flags(w, &q->pose, q->next_flags);
     mps__runner_flush(&w->runner);
     MPS__TRY(mps__device_status(&w->runner.memory.device));
     if (on_device) MPS__TRY(check_result(q));

@@ -165,14 +165,14 @@ static mps_status log_failure(mps_stage *s, mps_status status)
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     if (status == MPS_E_SOLVER) {
-        const mps_view *on_device = w->ppe.device ? mps__runner_begin_serial(s) : NULL;
+        const mps_view *device_view = w->ppe.device ? mps__runner_begin_serial(s) : NULL;
         mps__memory_sync_fields(&w->runner.memory);
         mps__world_ask_result(w, &q->view, &q->pose, &q->outcome);
         mps__runner_flush(&w->runner);
         mps_status found = mps__runner_check_reactions(&w->runner, q->view.t);
         if (found == MPS_OK)
             found = mps__world_check_result(w, &q->view, false, &q->outcome, &q->info);
-        if (on_device) mps__runner_end_serial(s, on_device);
+        if (device_view) mps__runner_end_serial(s, device_view);
         MPS__TRY(found);
     }
     return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
@@ -229,7 +229,7 @@ static mps_status solve_on_host(mps_stage *s)
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
     mps__memory *t = &w->runner.memory;
-    const mps_view *on_device = mps__runner_begin_serial(s);
+    const mps_view *device_view = mps__runner_begin_serial(s);
     mps_status status = w->ppe.device ? mps__ppe_to_host(&w->ppe) : MPS_OK;
     mps__memory_sync(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
     mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
@@ -238,7 +238,7 @@ static mps_status solve_on_host(mps_stage *s)
     if (status == MPS_OK) status = solve_equation(s, &q->terms);
     mps__memory_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
     mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);
-    mps__runner_end_serial(s, on_device);
+    mps__runner_end_serial(s, device_view);
     return status == MPS_OK ? mps__ppe_to_device(&w->ppe) : status;
 }
 
@@ -246,10 +246,10 @@ static mps_status solve_on_host(mps_stage *s)
 static mps_status close_levels(mps_stage *s)
 {
     mps__ppe *e = &mps__step_of(s)->w->ppe;
-    const mps_view *on_device = mps__runner_begin_serial(s);
+    const mps_view *device_view = mps__runner_begin_serial(s);
     mps_status status = mps__ppe_to_host(e);
     if (status == MPS_OK) status = mps__ppe_close(e, s->view);
-    mps__runner_end_serial(s, on_device);
+    mps__runner_end_serial(s, device_view);
     return status;
 }
 
@@ -284,7 +284,7 @@ static void log_apart(const mps__step *q)
     if (t->logged_solution == w->runner.plan.changes) return;
     if (q->load.what == MPS_LOAD_MASS)
         snprintf(why, sizeof why, "the added mass is asked for");
-    else if (!mps__solvers_known_device(s))
+    else if (!mps__solvers_support_device(s))
         snprintf(why, sizeof why, "solver '%s' with preconditioner '%s'", s->use->name,
                  s->pc ? s->pc->name : "none");
     if (!why[0]) return;

@@ -146,16 +146,16 @@ mps_status mps__world_leave_domain(mps__world *w)
 
 /* Arguments of the test whether a particle is behind a wall: pairs of the search, and solids in the
  * frame of the tank. */
-typedef struct boundaries {
+typedef struct spill_test {
     const int64_t *begin, *middle; /* near candidates of a row */
     const int32_t *count;          /* NULL, or numbers of all candidates, which are tested then */
     const int32_t *col, *plate;
-    const uint8_t *boundary; /* not 0: the particle may have dummies nearby */
+    const uint8_t *near_dummies; /* not 0: the particle may have dummies nearby */
     const double *ref, *area;
     bool *gone;
-} boundaries;
+} spill_test;
 
-MPS_ROW int64_t end_of(const boundaries *f, int64_t i)
+MPS_ROW int64_t end_of(const spill_test *f, int64_t i)
 {
     return f->count ? f->begin[i] + f->count[i] : f->middle[i];
 }
@@ -172,7 +172,7 @@ MPS_ROW double distance2(const int dim, const mps_view *v, int64_t i, int64_t j)
 
 /* Whether particle i, `r2` from a dummy, is beyond the face of this dummy, and no wall is nearer
  * than the dummy. */
-MPS_ROW bool behind(const int dim, const mps_view *v, const boundaries *f, int64_t i, int64_t dummy,
+MPS_ROW bool behind(const int dim, const mps_view *v, const spill_test *f, int64_t i, int64_t dummy,
                     double r2)
 {
     const mps_tank_pose *k = &v->tank;
@@ -188,7 +188,7 @@ MPS_ROW bool behind(const int dim, const mps_view *v, const boundaries *f, int64
 }
 
 /* Whether particle i touches a wall from behind. */
-MPS_ROW bool spilled(const int dim, const mps_view *v, const boundaries *f, int64_t i)
+MPS_ROW bool spilled(const int dim, const mps_view *v, const spill_test *f, int64_t i)
 {
     for (int64_t p = f->begin[i]; p < end_of(f, i); p++) {
         const int64_t j = f->col[p];
@@ -199,21 +199,21 @@ MPS_ROW bool spilled(const int dim, const mps_view *v, const boundaries *f, int6
     return false;
 }
 
-MPS_ROW void look_behind(const int dim, const mps_view *v, const boundaries *f, int64_t i)
+MPS_ROW void look_behind(const int dim, const mps_view *v, const spill_test *f, int64_t i)
 {
-    f->gone[i] = f->boundary[i] && spilled(dim, v, f, i);
+    f->gone[i] = f->near_dummies[i] && spilled(dim, v, f, i);
 }
-MPS_ROWS(spilled_rows, look_behind, boundaries)
+MPS_ROWS(spilled_rows, look_behind, spill_test)
 
 /* Arrays in the memory space of the loops. */
-static boundaries boundaries_of(const mps__world *w)
+static spill_test spill_test_of(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
-    return (boundaries){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
+    return (spill_test){.begin = mps__seen_list(w, MPS__ROWS_BEGIN, l->begin),
                         .middle = mps__seen_list(w, MPS__ROWS_MIDDLE, l->middle),
                         .col = mps__seen_list(w, MPS__ROWS_COLUMNS, l->col),
                         .plate = mps__seen(w, MPS__FIELD_PLATE),
-                        .boundary = mps__seen_list(w, MPS__BOUNDARY_ROWS, l->boundary),
+                        .near_dummies = mps__seen_list(w, MPS__NEAR_DUMMIES, l->near_dummies),
                         .ref = mps__seen(w, MPS__FIELD_REF),
                         .area = mps__seen(w, MPS__FIELD_AREA),
                         .gone = w->work.gone};
@@ -223,8 +223,8 @@ static boundaries boundaries_of(const mps__world *w)
 
 typedef struct flags {
     box box;
-    /* `boundary` NULL: rows are not in this memory space, or plates occlude some candidates */
-    boundaries boundaries;
+    /* `near_dummies` NULL: rows are not in this memory space, or plates occlude some candidates */
+    spill_test spill;
     const double *searched, *u;
     mps__carry carry;
 } flags;
@@ -239,8 +239,8 @@ MPS_ROW void raise_flag(const int dim, const mps_view *v, const flags *f, int64_
     }
     if (is_outside(dim, v, &f->box, i)) most[MPS__NEXT_OUTSIDE] = 1;
     if (most[MPS__NEXT_SPILLED] < 1)
-        most[MPS__NEXT_SPILLED] = !f->boundaries.boundary ||
-                                  (f->boundaries.boundary[i] && spilled(dim, v, &f->boundaries, i));
+        most[MPS__NEXT_SPILLED] = !f->spill.near_dummies ||
+                                  (f->spill.near_dummies[i] && spilled(dim, v, &f->spill, i));
     if (way > most[MPS__NEXT_WAY]) most[MPS__NEXT_WAY] = way;
     if (speed > most[MPS__NEXT_SPEED]) most[MPS__NEXT_SPEED] = speed;
 }
@@ -251,15 +251,15 @@ static void take_flags(void *to, const double *most)
     memcpy(to, most, MPS__NEXT_FLAGS * sizeof *most);
 }
 
-void mps__world_next_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS])
+void mps__world_request_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS])
 {
     flags f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
                .u = mps__seen(w, MPS__FIELD_VELOCITY),
                .carry = mps__motion_carry(&w->motion, pose)};
     mps_view v;
-    if (mps__world_rows_device(w) && w->lists.occluders.count == 0) {
-        f.boundaries = boundaries_of(w);
-        f.boundaries.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
+    if (mps__world_rows_on_device(w) && w->lists.occluders.count == 0) {
+        f.spill = spill_test_of(w);
+        f.spill.count = mps__seen_list(w, MPS__ROWS_COUNT, w->lists.neighbours.count);
     }
     for (int d = 0; d < 3; d++) {
         f.box.lo[d] = -INFINITY;
@@ -282,14 +282,14 @@ static mps_status look_device(mps__world *w, const mps_view *v, bool *any)
     MPS__TRY(mps__memory_enter(&w->runner.memory));
     const flags f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
                      .u = mps__seen(w, MPS__FIELD_VELOCITY),
-                     .boundaries = boundaries_of(w)};
+                     .spill = spill_test_of(w)};
     mps__runner_max(&w->runner, v, MPS__NEXT_FLAGS, &raise_flags, &f, most);
     *any = most[MPS__NEXT_SPILLED] > 0;
     return mps__memory_exit(&w->runner.memory);
 }
 
-/* Whether the last step has found none, and its rows are still valid. */
-static bool is_told(const mps__world *w)
+/* Whether the last step has found no liquid behind walls, and its rows are still valid. */
+static bool is_known_dry(const mps__world *w)
 {
     return w->next_flags.holds && w->next_flags.searches == w->lists.neighbours.searches &&
            w->next_flags.most[MPS__NEXT_SPILLED] == 0;
@@ -302,14 +302,14 @@ mps_status mps__world_leave_tank(mps__world *w)
     bool any = true;
     mps_view v;
     mps__world_view(w, &v);
-    if (is_told(w)) return MPS_OK;
-    if (mps__world_rows_device(w) && !mps__ranks_many(&w->ranks))
+    if (is_known_dry(w)) return MPS_OK;
+    if (mps__world_rows_on_device(w) && !mps__ranks_many(&w->ranks))
         MPS__TRY(look_device(w, &v, &any));
     if (!any) return MPS_OK;
     MPS__TRY(mps__world_fetch(w));
     mps__memory_sync_rows(&w->runner.memory);
     MPS__TRY(mps__device_status(&w->runner.memory.device));
-    const boundaries f = boundaries_of(w);
+    const spill_test f = spill_test_of(w);
     clear_gone(w);
     mps__runner_rows(&w->runner, &v, &spilled_rows, &f);
     return handle_lost(w, w->work.gone, "are behind a wall");

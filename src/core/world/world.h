@@ -247,7 +247,7 @@ mps_status mps__world_fetch_searched(const mps__world *w);
 /* Whether a step begins on the device; whether the device also has the lists of the last search.
  * world_rows.c */
 bool mps__world_on_device(const mps__world *w);
-bool mps__world_rows_device(const mps__world *w);
+bool mps__world_rows_on_device(const mps__world *w);
 /* Whether the candidates of the last search are still valid. world_rows.c */
 mps_status mps__world_fresh(mps__world *w, bool *fresh);
 /* The view of the present particles, without pairs. */
@@ -258,7 +258,7 @@ mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Capacity for all particles in the arrays of a step that are not channels. */
 mps_status mps__world_reserve(mps__world *w);
 /* Request the next-step flags, with the tank at a pose; valid after mps__runner_flush(). lost.c */
-void mps__world_next_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS]);
+void mps__world_request_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS]);
 /* Remove fluid outside of the domain, or behind walls, by the policy. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);

@@ -23,7 +23,7 @@ bool mps__world_on_device(const mps__world *w)
 
 /* While the device has newer rows, the host's lists are an older partition of the same candidates,
  * and still a valid start. */
-bool mps__world_rows_device(const mps__world *w)
+bool mps__world_rows_on_device(const mps__world *w)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     return device_finds(w) && w->runner.memory.listed == l->searches && l->longest == 0;
@@ -43,7 +43,8 @@ static mps_status make_lists(mps__world *w, bool values)
         MPS__TRY(mps__memory_block(t, MPS__ROWS_END, l->end, n, sizeof *l->end, values));
     MPS__TRY(mps__memory_block(t, MPS__ROWS_COUNT, l->count, n, sizeof *l->count, values));
     MPS__TRY(mps__memory_block(t, MPS__IDLE_ROWS, l->idle, n, sizeof *l->idle, values));
-    MPS__TRY(mps__memory_block(t, MPS__BOUNDARY_ROWS, l->boundary, n, sizeof *l->boundary, values));
+    MPS__TRY(mps__memory_block(t, MPS__NEAR_DUMMIES, l->near_dummies, n, sizeof *l->near_dummies,
+                               values));
     return mps__memory_block(t, MPS__SEARCHED, l->searched, n * l->dim, sizeof *l->searched,
                              values);
 }
@@ -116,7 +117,7 @@ static mps_status search_device(mps__world *w, bool *found)
         .end = mps__given_list(w, end_of(l), l->end),
         .count = mps__given_list(w, MPS__ROWS_COUNT, l->count),
         .idle = mps__given_list(w, MPS__IDLE_ROWS, l->idle),
-        .boundary = mps__given_list(w, MPS__BOUNDARY_ROWS, l->boundary),
+        .near_dummies = mps__given_list(w, MPS__NEAR_DUMMIES, l->near_dummies),
     };
     if (!on_device.key) return MPS_E_NOMEM;
     MPS__TRY(mps__neighbours_count_device(l, &on_device));
@@ -221,7 +222,7 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
 {
     const mps_neighbours *l = &w->lists.neighbours;
     const mps__particles *s = &w->particles;
-    const bool on_device = mps__world_on_device(w) && mps__world_rows_device(w);
+    const bool on_device = mps__world_on_device(w) && mps__world_rows_on_device(w);
     if (on_device && w->next_flags.holds) {
         *fresh = mps__neighbours_within(l, s->n, w->setup.re_far,
                                         w->next_flags.most[MPS__NEXT_WAY]);
@@ -240,7 +241,7 @@ mps_status mps__world_fresh(mps__world *w, bool *fresh)
 
 mps_status mps__world_rows(mps__world *w)
 {
-    const bool on_device = mps__world_rows_device(w);
+    const bool on_device = mps__world_rows_on_device(w);
     if (w->lists.occluders.count > 0 || !on_device)
         MPS__TRY(mps__world_fetch_field(w, MPS__FIELD_POSITION));
     mps__plates_look(w);

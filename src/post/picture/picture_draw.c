@@ -60,10 +60,10 @@ static void place_bar(layout *l, double x, double top, double height)
     l->bar_top = floor(top + 0.5 * (height - l->bar_height));
 }
 
-static void lay_plane(layout *l, const scene *s, double extent)
+static void lay_plane(layout *l, const scene *s, double available)
 {
     const double u = l->unit;
-    fit_slice(l, s, LEFT * u, TOP * u, extent, TALLEST * u);
+    fit_slice(l, s, LEFT * u, TOP * u, available, TALLEST * u);
     const pixel_box *b = &l->slice.box;
     place_bar(l, b->x + b->width, b->y, b->height);
     l->width = even(fmax(b->x + b->width + bars_width(s) * u, NARROWEST * u));
@@ -71,12 +71,12 @@ static void lay_plane(layout *l, const scene *s, double extent)
 }
 
 /* The overview is above the slice, or beside it if the slice is high. */
-static void lay_space(layout *l, const scene *s, double extent)
+static void lay_space(layout *l, const scene *s, double available)
 {
     const double u = l->unit, aspect = mps__space_aspect(s),
                  high = (s->hi[1] - s->lo[1]) / (s->hi[0] - s->lo[0]);
     if (high > 0.8) {
-        const double half = 0.5 * extent - 30 * u,
+        const double half = 0.5 * available - 30 * u,
                      height = fmin(half * fmax(high, 1 / aspect), TALLEST * u);
         l->space = (pixel_box){20 * u, TOP * u, half + 30 * u, height};
         fit_slice(l, s, l->space.x + l->space.width + LEFT * u, TOP * u, half - 20 * u, height);
@@ -84,12 +84,12 @@ static void lay_space(layout *l, const scene *s, double extent)
         place_bar(l, l->slice.box.x + l->slice.box.width, TOP * u, height);
         l->height = even((TOP + BOTTOM) * u + height);
     } else {
-        const double height = fmax(fmin(extent / aspect, 0.55 * TALLEST * u), 40 * u);
-        l->space = (pixel_box){LEFT * u, (TOP - 20) * u, extent, height};
-        fit_slice(l, s, LEFT * u, (TOP + 50) * u + height, extent, 0.45 * TALLEST * u);
-        l->slice.box.x += 0.5 * (extent - l->slice.box.width);
+        const double height = fmax(fmin(available / aspect, 0.55 * TALLEST * u), 40 * u);
+        l->space = (pixel_box){LEFT * u, (TOP - 20) * u, available, height};
+        fit_slice(l, s, LEFT * u, (TOP + 50) * u + height, available, 0.45 * TALLEST * u);
+        l->slice.box.x += 0.5 * (available - l->slice.box.width);
         const double foot = l->slice.box.y + l->slice.box.height;
-        place_bar(l, LEFT * u + extent, TOP * u, foot - TOP * u);
+        place_bar(l, LEFT * u + available, TOP * u, foot - TOP * u);
         l->height = even(foot + BOTTOM * u);
     }
     l->width = even(l->bar_x + (bars_width(s) - 30) * u);
@@ -98,11 +98,11 @@ static void lay_space(layout *l, const scene *s, double extent)
 static void lay_out(layout *l, const scene *s, int32_t width)
 {
     *l = (layout){.unit = (double)width / SHEET};
-    const double extent = width - (LEFT + bars_width(s)) * l->unit;
+    const double available = width - (LEFT + bars_width(s)) * l->unit;
     if (s->dim == 3)
-        lay_space(l, s, extent);
+        lay_space(l, s, available);
     else
-        lay_plane(l, s, extent);
+        lay_plane(l, s, available);
 }
 
 /* In 3-D, particles around the middle of z, one or two layers, so that baffles and levels between
@@ -174,9 +174,9 @@ static void draw_head(canvas *c, const scene *s)
     draw_gravity(c, s, c->width - 2.2 * margin - used, foot - 8 * c->unit);
     style.place = TEXT_LEFT;
     style.bold = true;
-    const double extent = c->width - (is_turned(s) ? 8 : 3) * margin - used;
-    while (style.size > 15 && mps__canvas_text_width(c, style, s->title) > extent) style.size--;
-    mps__canvas_text(c, margin, foot, style, extent, s->title);
+    const double available = c->width - (is_turned(s) ? 8 : 3) * margin - used;
+    while (style.size > 15 && mps__canvas_text_width(c, style, s->title) > available) style.size--;
+    mps__canvas_text(c, margin, foot, style, available, s->title);
 }
 
 static mps_status draw_all(canvas *c, const layout *l, const scene *s, page_errors *e)

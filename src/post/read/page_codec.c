@@ -25,7 +25,7 @@ void mps__codec_free(codec *c)
     *c = (codec){0};
 }
 
-static bool bytes_remaining(codec_bytes *b, size_t more)
+static bool reserve_bytes(codec_bytes *b, size_t more)
 {
     if (b->capacity - b->size >= more) return true;
     size_t wanted = b->capacity + b->capacity / 2;
@@ -42,7 +42,7 @@ static bool deflate_all(z_stream *s, int flush, codec_bytes *out)
 {
     int status = Z_OK;
     do {
-        if (!bytes_remaining(out, 1 << 14)) return false;
+        if (!reserve_bytes(out, 1 << 14)) return false;
         const size_t remaining = out->capacity - out->size;
         const uInt most = remaining < 1 << 30 ? (uInt)remaining : 1 << 30;
         s->next_out = out->data + out->size;

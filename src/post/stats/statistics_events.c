@@ -8,7 +8,7 @@
 
 /* ---- the signal ---- */
 
-static mps_status reserve_more(const mps_stats_config *config, int64_t n, mps__signal *out)
+static mps_status allocate(const mps_stats_config *config, int64_t n, mps__signal *out)
 {
     if ((uint64_t)n > SIZE_MAX / 64) return mps__stats_no_memory(config);
     out->t = malloc((2 * (size_t)n + 1) * sizeof *out->t);
@@ -20,7 +20,7 @@ static mps_status reserve_more(const mps_stats_config *config, int64_t n, mps__s
 static mps_status copy_known(const mps_stats_config *config, int64_t n, const double *t,
                              const double *p, mps__signal *out)
 {
-    MPS__STATS_TRY(reserve_more(config, n, out));
+    MPS__STATS_TRY(allocate(config, n, out));
     for (int64_t k = 0; k < n; k++) {
         if (t[k] < config->from || t[k] > config->until) continue;
         if (isnan(p[k])) {
@@ -40,7 +40,7 @@ static mps_status resample(const mps_stats_config *config, mps__signal *s)
     MPS__STATS_CHECK(config, span < most, "'rate' is %g: gives %g samples, at most %g are allowed",
                      config->rate, span, most);
     mps__signal out = {.n = (int64_t)(span + 1e-9) + 1, .missing = s->missing};
-    MPS__STATS_TRY(reserve_more(config, out.n, &out));
+    MPS__STATS_TRY(allocate(config, out.n, &out));
     for (int64_t k = 0, at = 0; k < out.n; k++) {
         const double t = s->t[0] + (double)k / config->rate;
         while (at + 2 < s->n && s->t[at + 1] <= t) at++;

@@ -17,11 +17,11 @@ static void put(text *out, const char *format, ...) __attribute__((format(printf
 
 static void put(text *out, const char *format, ...)
 {
-    const bool fits = out->length < out->size;
+    const bool has_space = out->length < out->size;
     va_list arguments;
     va_start(arguments, format);
-    const int length = vsnprintf(fits ? out->buffer + out->length : NULL,
-                                 fits ? out->size - out->length : 0, format, arguments);
+    const int length = vsnprintf(has_space ? out->buffer + out->length : NULL,
+                                 has_space ? out->size - out->length : 0, format, arguments);
     va_end(arguments);
     if (length > 0) out->length += (size_t)length;
 }

@@ -218,7 +218,7 @@ typedef struct mps__grid {
     int64_t point_capacity;
     int64_t *point_key;  /* [points] coordinates of the cell that holds a point, -1: none */
     double *point_kappa; /* [points]; free for use once all grids are set up */
-    mps__grid_buffer turn_buffer;
+    mps__grid_buffer visit_buffer;
     /* [cells] cells of the first grid in the order in which particles meet them; NULL: order of the
      * cells */
     int32_t *visit;
@@ -385,9 +385,9 @@ extern const uint8_t mps__grid_opposite[MPS__GRID_ABOUT];
 bool mps__grid_list(mps__grid *g);
 /* Interpolation weights and sides of the particles. Their shifts replace their conductivities in
  * point_kappa. */
-void mps__grid_weights_particles(mps__grid *g, const mps_ppe_problem *problem);
+void mps__grid_weigh_particles(mps__grid *g, const mps_ppe_problem *problem);
 /* Interpolation weights and sides of the cells of the finer grid. */
-void mps__grid_weights_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
+void mps__grid_weigh_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l);
 /* Restrict the values [n] of the particles to the right side of the first grid. Returns 0 or a
  * reason of failure. */
 int mps__grid_restrict(mps__grid *g, const double *values, double scale);

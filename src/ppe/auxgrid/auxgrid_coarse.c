@@ -87,7 +87,7 @@ static void from_finer(mps__grid *g, const mps__grid_level *fine, mps__grid_leve
                        .to_count = l->count};
     if (!g->device) mps__grid_list_cells(g, l);
     mps__loop_run(mps__team(g->parallel, l->cells), &merge_rows, g->dim, l->cells, &f);
-    mps__grid_weights_cells(g, fine, l);
+    mps__grid_weigh_cells(g, fine, l);
 }
 
 /* ---- restriction lists, on a device ---- */

@@ -27,7 +27,7 @@ static const double per_unit = 0x1p38;
 /* far above any pair's conductance; hundreds of them stay below MOST */
 static const double largest_term = 0x1p52;
 
-typedef struct edge_list {
+typedef struct edge_fields {
     const int64_t *row, *key;
     const int32_t *col, *home, *next;
     const float *val;
@@ -41,7 +41,7 @@ typedef struct edge_list {
     /* [chunks][cells * dim] conductance of the face above a cell along each axis */
     uint64_t *faces;
     float *link;
-} edge_list;
+} edge_fields;
 
 typedef struct edge {
     double x[3], d[3]; /* start and difference in cells */
@@ -53,7 +53,7 @@ typedef struct edge {
 
 /* Next axis to step along: that of the cell face that the edge meets first, unless no cell is
  * behind it. -1: none */
-MPS_ROW int next_axis(const int dim, const edge_list *y, const edge *w, int32_t cell)
+MPS_ROW int next_axis(const int dim, const edge_fields *y, const edge *w, int32_t cell)
 {
     int best = -1;
     double first = INFINITY;
@@ -71,7 +71,7 @@ MPS_ROW int next_axis(const int dim, const edge_list *y, const edge *w, int32_t 
 }
 
 /* Follow the edge from cell to cell. False: the cells are too far apart or not connected. */
-MPS_ROW bool follow(const int dim, const edge_list *y, edge *w, int32_t from, int32_t to)
+MPS_ROW bool follow(const int dim, const edge_fields *y, edge *w, int32_t from, int32_t to)
 {
     int all = 0;
     for (int a = 0; a < dim; a++) {
@@ -93,7 +93,7 @@ MPS_ROW bool follow(const int dim, const edge_list *y, edge *w, int32_t from, in
     return true;
 }
 
-MPS_ROW void add(const edge_list *y, uint64_t *face, double conductance)
+MPS_ROW void add(const edge_fields *y, uint64_t *face, double conductance)
 {
     const double whole = conductance * per_unit;
     const bool finite = whole < largest_term;
@@ -106,7 +106,7 @@ MPS_ROW void add(const edge_list *y, uint64_t *face, double conductance)
         *face = finite ? *face + term : *face | term;
 }
 
-MPS_ROW void add_edge(const int dim, const edge_list *y, edge *w, const int32_t home[2],
+MPS_ROW void add_edge(const int dim, const edge_fields *y, edge *w, const int32_t home[2],
                       uint64_t *faces)
 {
     if (!follow(dim, y, w, home[0], home[1])) return;
@@ -115,8 +115,8 @@ MPS_ROW void add_edge(const int dim, const edge_list *y, edge *w, const int32_t 
 }
 
 /* Shortcut for cells with a common face, which most are. False: they have none. */
-MPS_ROW bool add_short_edge(const int dim, const edge_list *y, const edge *w, const int32_t home[2],
-                            uint64_t *faces)
+MPS_ROW bool add_short_edge(const int dim, const edge_fields *y, const edge *w,
+                            const int32_t home[2], uint64_t *faces)
 {
     int64_t step = y->key[home[1]] - y->key[home[0]];
     for (int a = 0; a < dim; a++) {
@@ -128,7 +128,7 @@ MPS_ROW bool add_short_edge(const int dim, const edge_list *y, const edge *w, co
     return false;
 }
 
-MPS_ROW void add_row(const int dim, const edge_list *y, int64_t i, uint64_t *faces)
+MPS_ROW void add_row(const int dim, const edge_fields *y, int64_t i, uint64_t *faces)
 {
     edge w;
     for (int a = 0; a < dim; a++) w.x[a] = mps__grid_position(dim, &y->at, i, a);
@@ -142,22 +142,22 @@ MPS_ROW void add_row(const int dim, const edge_list *y, int64_t i, uint64_t *fac
     }
 }
 
-MPS_ROW void edge_row(const int dim, const edge_list *y, int64_t i)
+MPS_ROW void edge_row(const int dim, const edge_fields *y, int64_t i)
 {
     add_row(dim, y, i, y->faces);
 }
-MPS__LOOP(edge_rows, edge_row, edge_list)
+MPS__LOOP(edge_rows, edge_row, edge_fields)
 
 /* A chunk of the rows on the host, with its own sums. */
 typedef struct parting {
-    const edge_list *y;
+    const edge_fields *y;
     int dim;
 } parting;
 
 static void add_chunk(void *argument, int32_t chunk)
 {
     const parting *p = argument;
-    const edge_list y = *p->y;
+    const edge_fields y = *p->y;
     uint64_t *faces = y.faces + chunk * y.count;
     const int64_t begin = y.n * chunk / y.chunks, end = y.n * (chunk + 1) / y.chunks;
     memset(faces, 0, (size_t)y.count * sizeof *faces);
@@ -167,7 +167,7 @@ static void add_chunk(void *argument, int32_t chunk)
         for (int64_t i = begin; i < end; i++) add_row(3, &y, i, faces);
 }
 
-MPS_ROW uint64_t sum_of(const edge_list *y, int64_t face)
+MPS_ROW uint64_t sum_of(const edge_fields *y, int64_t face)
 {
     uint64_t sum = 0;
     for (int32_t c = 0; c < y->chunks; c++) {
@@ -178,7 +178,7 @@ MPS_ROW uint64_t sum_of(const edge_list *y, int64_t face)
 }
 
 /* Links on both sides of the faces above a cell. */
-MPS_ROW void set_link_row(const int dim, const edge_list *y, int64_t cell)
+MPS_ROW void set_link_row(const int dim, const edge_fields *y, int64_t cell)
 {
     for (int64_t f = cell * dim; f < (cell + 1) * dim; f++) {
         const int64_t link = 2 * f + 1, other = y->next[link];
@@ -188,7 +188,7 @@ MPS_ROW void set_link_row(const int dim, const edge_list *y, int64_t cell)
         y->link[other * 2 * dim + (link - 1) % (2 * dim)] = y->link[link];
     }
 }
-MPS__LOOP(set_link_rows, set_link_row, edge_list)
+MPS__LOOP(set_link_rows, set_link_row, edge_fields)
 
 static void add_faces(void *into, const void *from)
 {
@@ -201,10 +201,10 @@ static void add_faces(void *into, const void *from)
 
 /* Add the sums of all chunks into the first, then over the ranks, on the host. A pair of two ranks
  * is counted at the particle that comes first. */
-static int add_ranks(mps__grid *g, const mps_ppe_problem *problem, edge_list *y)
+static int add_ranks(mps__grid *g, const mps_ppe_problem *problem, edge_fields *y)
 {
     const size_t bytes = (size_t)y->count * sizeof *y->faces;
-    edge_list here = *y;
+    edge_fields here = *y;
     if (g->device) {
         here.faces = mps__grid_ranks_buffer(g, MPS__GRID_FACES, y->count, sizeof *y->faces);
         if (!here.faces) return MPS_PPE_NOMEM;
@@ -220,7 +220,7 @@ static int add_ranks(mps__grid *g, const mps_ppe_problem *problem, edge_list *y)
 }
 
 /* On a device all rows add to the same sums. */
-static void add_rows(const mps__grid *g, const mps_parallel *team, const edge_list *y)
+static void add_rows(const mps__grid *g, const mps_parallel *team, const edge_fields *y)
 {
     if (g->device) {
         mps__device_clear(g->device, y->faces, (size_t)y->count * sizeof *y->faces);
@@ -234,20 +234,20 @@ int mps__grid_edges(mps__grid *g, const mps_ppe_problem *problem)
 {
     const mps__grid_level *l = &g->level[0];
     const mps_parallel *team = mps__team(problem->parallel, problem->n);
-    edge_list y = {.row = problem->row,
-                   .key = l->key,
-                   .col = problem->col,
-                   .home = l->home,
-                   .next = l->next,
-                   .val = problem->val,
-                   .place = mps__grid_many(g) ? g->ranks.place : NULL,
-                   .at = mps__grid_positions_of(g, problem),
-                   .unit = g->unit,
-                   .n = problem->n,
-                   .count = l->cells * g->dim,
-                   .chunks = team && team->threads > 1 ? CHUNKS : 1,
-                   .together = g->device != NULL,
-                   .link = l->link};
+    edge_fields y = {.row = problem->row,
+                     .key = l->key,
+                     .col = problem->col,
+                     .home = l->home,
+                     .next = l->next,
+                     .val = problem->val,
+                     .place = mps__grid_many(g) ? g->ranks.place : NULL,
+                     .at = mps__grid_positions_of(g, problem),
+                     .unit = g->unit,
+                     .n = problem->n,
+                     .count = l->cells * g->dim,
+                     .chunks = team && team->threads > 1 ? CHUNKS : 1,
+                     .together = g->device != NULL,
+                     .link = l->link};
     if (!mps__grid_reserve_parts(g, (size_t)(y.chunks * y.count) * sizeof *y.faces))
         return MPS_PPE_NOMEM;
     y.faces = g->parts;

@@ -398,7 +398,7 @@ int mps__grid_from_matrix(mps__grid *g, const mps_ppe_problem *problem)
     else
         reason = mps__grid_edges(g, problem);
     if (reason) return reason;
-    mps__grid_weights_particles(g, problem);
+    mps__grid_weigh_particles(g, problem);
     if (mps__grid_many(g)) /* sums without contributions of any rank stay zero */
         mps__vectors_clear(team, (l->cells + 1) * mps__grid_all(g->dim), g->parts);
     return share_shifts(g);

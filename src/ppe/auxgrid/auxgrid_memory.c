@@ -214,7 +214,7 @@ void mps__grid_release(mps__grid *g)
         drop(g, &g->level[k].cell_buffer);
         drop(g, &g->level[k].adding_buffer);
     }
-    drop(g, &g->turn_buffer);
+    drop(g, &g->visit_buffer);
     drop(g, &g->sort_buffer);
     drop_work(g);
     mps__grid_ranks_release(g);

@@ -63,14 +63,14 @@ bool mps__grid_list(mps__grid *g)
     }
     g->visits = cells;
     if (g->device) return true;
-    g->visit = mps__grid_buffer_of(g, &g->turn_buffer, cells, sizeof *g->visit);
+    g->visit = mps__grid_buffer_of(g, &g->visit_buffer, cells, sizeof *g->visit);
     if (g->visit) list_visits(g, mps__grid_many(g) ? &g->ranks : NULL);
     return g->visit;
 }
 
 /* ---- interpolation weights of the points ---- */
 
-typedef struct sharing {
+typedef struct weighing {
     const int32_t *home, *next;
     const float *link;
     const double *kappa; /* of the cells */
@@ -82,22 +82,22 @@ typedef struct sharing {
     double *particle;   /* conductivities, replaced by the shifts */
     const int64_t *key; /* of the cells of the finer grid */
     const double *cell; /* their conductivities */
-} sharing;
+} weighing;
 
-static sharing sharing_of(const mps__grid_level *l)
+static weighing weighing_of(const mps__grid_level *l)
 {
-    return (sharing){.home = l->home,
-                     .next = l->next,
-                     .link = l->link,
-                     .kappa = l->kappa,
-                     .side = l->side,
-                     .weight = l->weight};
+    return (weighing){.home = l->home,
+                      .next = l->next,
+                      .link = l->link,
+                      .kappa = l->kappa,
+                      .side = l->side,
+                      .weight = l->weight};
 }
 
 /* Interpolation weights of the 2^dim cells around a point. far[a] is the weight of the neighbour
  * cell along axis a. Only cells linked to the own cell count, and a cell of lower conductivity than
  * the point has a lower weight. */
-MPS_ROW void set_weights(const int dim, const sharing *f, int64_t point, double kappa,
+MPS_ROW void set_weights(const int dim, const weighing *f, int64_t point, double kappa,
                          const double *far, const int side)
 {
     const int corners = 1 << dim;
@@ -122,7 +122,7 @@ MPS_ROW void set_weights(const int dim, const sharing *f, int64_t point, double 
     f->side[point] = (uint8_t)side;
 }
 
-MPS_ROW void weigh_particle(const int dim, const sharing *f, int64_t i)
+MPS_ROW void weigh_particle(const int dim, const weighing *f, int64_t i)
 {
     double far[3];
     int side = 0;
@@ -134,12 +134,12 @@ MPS_ROW void weigh_particle(const int dim, const sharing *f, int64_t i)
     set_weights(dim, f, i, f->particle[i], far, side);
     if (i < f->shifts) f->particle[i] = f->point_shift[i] > 0 ? f->point_shift[i] : 0;
 }
-MPS__LOOP(weigh_particles, weigh_particle, sharing)
+MPS__LOOP(weigh_particles, weigh_particle, weighing)
 
-void mps__grid_weights_particles(mps__grid *g, const mps_ppe_problem *problem)
+void mps__grid_weigh_particles(mps__grid *g, const mps_ppe_problem *problem)
 {
     const mps__grid_level *l = &g->level[0];
-    sharing f = sharing_of(l);
+    weighing f = weighing_of(l);
     f.at = mps__grid_positions_of(g, problem);
     f.point_shift = problem->shift;
     f.shifts = problem->n;
@@ -147,18 +147,18 @@ void mps__grid_weights_particles(mps__grid *g, const mps_ppe_problem *problem)
     mps__loop_run(mps__team(problem->parallel, l->points), &weigh_particles, g->dim, l->points, &f);
 }
 
-MPS_ROW void weigh_cell(const int dim, const sharing *f, int64_t c)
+MPS_ROW void weigh_cell(const int dim, const weighing *f, int64_t c)
 {
     const double far[3] = {0.25, 0.25, 0.25};
     int side = 0;
     for (int a = 0; a < dim; a++) side |= (int)(mps__grid_coordinate(f->key[c], a) & 1) << a;
     if (f->home[c] >= 0) set_weights(dim, f, c, f->cell[c], far, side);
 }
-MPS__LOOP(weigh_cells, weigh_cell, sharing)
+MPS__LOOP(weigh_cells, weigh_cell, weighing)
 
-void mps__grid_weights_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
+void mps__grid_weigh_cells(const mps__grid *g, const mps__grid_level *fine, mps__grid_level *l)
 {
-    sharing f = sharing_of(l);
+    weighing f = weighing_of(l);
     f.key = fine->key;
     f.cell = fine->kappa;
     mps__loop_run(mps__team(g->parallel, fine->cells), &weigh_cells, g->dim, fine->cells, &f);
