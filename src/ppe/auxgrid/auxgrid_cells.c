@@ -158,7 +158,7 @@ typedef struct around {
 } around;
 
 /* Neighbourhood of a cell: each neighbour is found from one that is a step nearer. The last row is
- * the placeholder for missing cells. */
+ * the sentinel, which stands for missing cells. */
 MPS_ROW void find_about(const int dim, const around *f, int64_t c)
 {
     const int all = mps__grid_all(dim), sides = 2 * dim;

@@ -211,7 +211,7 @@ MPS_ROW void add_visit(const int dim, const adding *t, int64_t visit)
 }
 MPS__LOOP(add_visits, add_visit, adding)
 
-/* Sum of the contributions to a cell; those of the placeholder for missing cells are zero. */
+/* Sum of the contributions to a cell; those of the sentinel cell are zero. */
 MPS_ROW void sum_cell(const int dim, const adding *t, int64_t c)
 {
     const int all = mps__grid_all(dim);
