@@ -119,9 +119,9 @@ mps_status cli_open(const choices *c, mps_case **out);
 /* Read a case and print its messages. @return NULL: it has errors, and *code is set */
 mps_case *cli_case(const choices *c, int *code);
 /* Run a case into a folder; `begin` has resume and error, the choices have the rest.
+ * @param busy  NULL, or out: another process runs in the folder, which is then no failure and has
+ * no message
  * @return exit code */
-/* @param busy  NULL, or out: another process runs in the folder, which is then no failure and has
- * no message */
 int cli_run(const choices *c, const mps_job_config *begin, const char *folder, bool *busy);
 /* With --mpi among the arguments: initialise MPI before anything is printed.
  * @return -1: continue; else the exit code */

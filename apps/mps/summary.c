@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "summary.h"
-#include "constants.h"
+#include "json.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -41,41 +41,47 @@ double summary_T1(const char *folder)
     return end > line ? value : NAN;
 }
 
-/* A text of JSON behind its first quote. @return what is behind its last one; NULL: it does not
- * end */
-static const char *unquote(const char *from, char out[SUMMARY_TEXT])
+/* The value of JSON that fills a line, or NULL. */
+static json_value *value_of(char line[LINE_SIZE])
 {
-    size_t used = 0;
-    for (; *from && *from != '"'; from++) {
-        const char c = *from == '\\' && from[1] ? *++from : *from;
-        if (used + 1 < SUMMARY_TEXT) out[used++] = c;
-    }
-    out[used] = '\0';
-    return *from ? from + 1 : NULL;
+    json_error error;
+    size_t length = strcspn(line, "\n");
+    if (length > 0 && line[length - 1] == ',') length--;
+    line[length] = '\0';
+    return mps__json_read(line, &error);
 }
 
 bool summary_text(const char *folder, const char *key, char out[SUMMARY_TEXT])
 {
     char line[LINE_SIZE];
-    return find_line(folder, key, line) && line[0] == '"' && unquote(line + 1, out);
+    json_value *value = find_line(folder, key, line) ? value_of(line) : NULL;
+    const char *text = mps__json_text(value);
+    const bool found = text != NULL;
+    if (found) snprintf(out, SUMMARY_TEXT, "%s", text);
+    mps__json_free(value);
+    return found;
 }
 
 bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
                    char value[SUMMARY_TEXT])
 {
-    static const char begin[] = "    {\"key\": \"", middle[] = ", \"value\": \"";
+    static const char begin[] = "    {\"key\": \"";
     char path[PATH_SIZE], line[LINE_SIZE];
-    bool found = false;
+    json_value *input = NULL;
     snprintf(path, sizeof path, "%s/summary.json", folder);
     FILE *in = fopen(path, "r");
-    while (in && !found && fgets(line, sizeof line, in)) {
+    while (in && fgets(line, sizeof line, in)) {
         if (strncmp(line, begin, sizeof begin - 1) != 0 || index-- > 0) continue;
-        const char *at = unquote(line + sizeof begin - 1, key);
-        found = at && strncmp(at, middle, sizeof middle - 1) == 0 &&
-                unquote(at + sizeof middle - 1, value);
+        input = value_of(line);
         break;
     }
     if (in) fclose(in);
+    if (input) {
+        snprintf(key, SUMMARY_TEXT, "%s", mps__json_member(input, "key"));
+        snprintf(value, SUMMARY_TEXT, "%s", mps__json_member(input, "value"));
+    }
+    const bool found = input != NULL;
+    mps__json_free(input);
     return found;
 }
 

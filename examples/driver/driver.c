@@ -161,7 +161,7 @@ static void print_help(const driver *d, const option *table, int count)
 {
     printf("%s - %s\n\nusage: %s [options]\n\n", d->program, d->about, d->program);
     options_help(stdout, table, count);
-    printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, plots, pictures and "
+    printf("\nWrites probes.csv, summary.json, frames.pvd with frames/, pictures and "
            "report.html into the folder of --out.\n"
            "report.html and summary.json say what each column of probes.csv is, and where.\n"
            "A folder with an earlier run is refused unless --resume or --overwrite is given, and "
@@ -248,7 +248,7 @@ void driver_parse(driver *d, int argc, char **argv)
     char message[OPTION_MESSAGE];
     begin_ranks(d, argc, argv);
     keep_command(d, argc, argv);
-    d->both_phases = strncmp(d->model, "mmps", 4) == 0;
+    d->both_phases = driver_has_gas(d);
     d->two_phases = d->need || d->both_phases;
     const int count = make_table(d, table);
     const option *asked = options_parse(table, count, argc, argv, message);

@@ -21,7 +21,7 @@ typedef struct driver {
     double re_far;      /* far radius [dp]; 0: the library's */
     const char *solver; /* "solver" or "solver/preconditioner" */
     const char *out;    /* folder of all outputs */
-    double checkpoint;  /* interval of checkpoints [s]; 0: only when interrupted */
+    double checkpoint;  /* interval of checkpoints [s]; 0: by the clock only */
     double dp, dp_min, dp_max; /* spacing and its allowed range [m] */
     double dt;                 /* fixed step [s]; 0: adaptive */
     double cfl;                /* adaptive: dt u / dp */

@@ -7,8 +7,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define VOLUME_WARNED 0.02 /* change of the volume that the page calls good, too */
-
 const table *mps__job_failed_table(const mps_job *job)
 {
     const table *const all[] = {&job->probes, &job->momentum, &job->steps, &job->trace_rows};
@@ -86,7 +84,7 @@ static void print_end(mps_job *job)
                    s->steps_of_run ? 1e3 * s->step_s / (double)s->steps_of_run : 0,
                    s->steps ? s->ppe_iterations / (double)s->steps : 0, (long long)s->lost,
                    job->config.folder, job->config.report ? "; report.html there shows them" : "");
-    if (s->volume_largest > VOLUME_WARNED)
+    if (s->volume_largest > VOLUME_GOOD)
         mps__job_print(job,
                        "warning: the liquid's volume changed by up to %.1f %%: levels and static "
                        "pressures are off by about as much; use a finer spacing",

@@ -9,8 +9,8 @@
 /* How long a rank that ends waits for the others to receive its exit code [s]. */
 static const double PATIENCE = 20;
 
-/* What ranks reduce; LEAVES: 0, or 1 + exit code; TELLS: of the ranks that fail, the lowest has the
- * largest number. */
+/* What ranks reduce; LEAVES: 0, or 1 + exit code; PRINTS: of the ranks that fail, the lowest has
+ * the largest number. */
 enum { VALUE, LEAVES, PRINTS, VALUES };
 
 bool mps__job_first(const mps_job *job)

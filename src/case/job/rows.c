@@ -14,13 +14,22 @@ static const char CASE_FILE[] = "case.yaml";
 
 /* ---- opening ---- */
 
+/* A table_row_fn for probes.csv. */
+static void take_row(void *user, const double *row)
+{
+    mps_job *job = user;
+    const double volume = fabs(row[job->columns + COLUMN_VOLUME]);
+    mps__peaks_row(&job->peaks, row);
+    job->totals.volume_largest = fmax(job->totals.volume_largest, volume);
+}
+
 /* Connect the evaluations of rows, which a continued run repeats for the rows read back. */
 static void attach(mps_job *job, table *t)
 {
     if (t == &job->steps) t->each = mps__resume_add_step;
-    if (t == &job->probes) t->each = mps__peaks_row;
+    if (t == &job->probes) t->each = take_row;
     if (t == &job->trace_rows) t->each = mps__trace_keep;
-    t->user = t == &job->probes ? (void *)&job->peaks : job;
+    t->user = job;
 }
 
 bool mps__job_open_table(mps_job *job, table *t, const char *name, const char *header, int columns)
@@ -156,7 +165,6 @@ static void measure_energies(mps_job *job, double *out)
                                           e.layers};
     memcpy(out, values, sizeof values);
     job->totals.volume_error = e.volume_error;
-    job->totals.volume_largest = fmax(job->totals.volume_largest, fabs(e.volume_error));
 }
 
 static double measure_column(mps_job *job, const job_column *c)

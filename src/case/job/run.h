@@ -82,7 +82,7 @@ typedef struct job_totals {
     int64_t fluid, wall, dummy, steps, steps_of_run, lost;
     double t_before; /* time of the checkpoint; 0: none */
     double t, wall_s, cpu_s, step_s, output_s, max_speed;
-    double volume_error, volume_largest;  /* of the last row; largest absolute value of this run */
+    double volume_error, volume_largest;  /* of the last sample; largest magnitude in a row */
     double crossing_least, crossing_most; /* mps_step_info.crossing_time [s] */
     double ppe_iterations, ppe_solves, seconds[MPS_STAGE_COUNT];
     const char *status;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Names of columns of probes.csv: the name of a sensor must differ from other columns, and
  * 'collect' must name columns. */
+#include "tables.h"
 #include "tree.h"
 #include "units.h"
 #include <stdio.h>
@@ -8,10 +9,10 @@
 
 enum { LISTED_CAPACITY = 200 };
 
-/* Columns of each run, as columns.c of the job has them; of the motion; of a body. */
-static const char COMMON[] = "t|ke|x_tank|pe|wall_work_momentum|wall_work_probes|viscous|plugins|"
-                             "collision|shift|numerical|added|volume_error|friction|layers",
-                  MOTION[] = "surge|sway|heave|roll|pitch|yaw", BODY[] = "body_";
+/* Columns of each run; of the motion; of a body. */
+#define OR(name) "|" #name
+static const char COMMON[] = "t" COMMON_COLUMNS(OR), MOTION[] = "surge|sway|heave|roll|pitch|yaw",
+                  BODY[] = "body_";
 
 static void check_sensors(mps_case *c, const tree_node *sensors, bool moves)
 {

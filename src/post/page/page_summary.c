@@ -3,6 +3,7 @@
  * docs/explanations/accuracy.md and impacts.md. */
 #include "page_parts.h"
 #include "page_text.h"
+#include "tables.h"
 #include <math.h>
 #include <string.h>
 
@@ -84,10 +85,11 @@ static light light_volume(const page_run *r)
     light l = {.name = "Volume"};
     char number[TEXT_NUMBER];
     const double most = largest(&r->probes, "volume_error");
-    l.state = by_limits(most, 0.02, 0.05);
+    l.state = by_limits(most, VOLUME_GOOD, 0.05);
     snprintf(l.value, sizeof l.value, "%s %%", mps__rounded(number, 100 * most));
     snprintf(l.text, sizeof l.text,
-             "Largest change of the liquid's volume since the first step. Below 2 %% is good.");
+             "Largest change of the liquid's volume since the first step. Below %g %% is good.",
+             100 * VOLUME_GOOD);
     if (l.state == LOOK || l.state == POOR)
         snprintf(l.advice, sizeof l.advice,
                  "Levels and static pressures are off by about as much. Use a finer spacing or a "

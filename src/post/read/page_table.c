@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Tables of a run: a line "t[s],P1[Pa],..." and rows of numbers. */
 #include "page_read.h"
+#include "tables.h"
 #include <math.h>
 #include <string.h>
 
@@ -38,11 +39,11 @@ mps_status mps__page_table_read(const page_run *r, const char *path, mps__csv *o
 
 bool mps__is_common(const char *name)
 {
-    static const char *const names[] = {"ke",       "x_tank",  "pe",        "wall_work_momentum",
-                                        "viscous",  "plugins", "collision", "wall_work_probes",
-                                        "shift",    "added",   "numerical", "volume_error",
-                                        "friction", "layers"};
-    for (size_t k = 0; k < sizeof names / sizeof *names; k++)
+#define QUOTED(name) #name,
+    static const char *const names[] = {COMMON_COLUMNS(QUOTED)};
+#undef QUOTED
+    _Static_assert(sizeof names / sizeof *names == COLUMN_COMMON, "a name for each index");
+    for (int k = 0; k < COLUMN_COMMON; k++)
         if (strcmp(name, names[k]) == 0) return true;
     return false;
 }

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* The tables of a run: indices of their columns. */
-#ifndef MPS_POST_TABLES_H
-#define MPS_POST_TABLES_H
+/* The tables of a run: indices and names of their columns. */
+#ifndef MPS_TEXT_TABLES_H
+#define MPS_TEXT_TABLES_H
 
 /* Columns of steps.csv. */
 enum {
@@ -39,6 +39,15 @@ enum {
     COLUMN_LAYERS,
     COLUMN_COMMON = COLUMN_LAYERS /* number of common columns */
 };
+/* Their names, which columns.c of the job describes. */
+/* clang-format off */
+#define COMMON_COLUMNS(X) \
+    X(ke) X(x_tank) X(pe) X(wall_work_momentum) X(wall_work_probes) X(viscous) X(plugins) \
+    X(collision) X(shift) X(numerical) X(added) X(volume_error) X(friction) X(layers)
+/* clang-format on */
+
+/* Largest change of the liquid's volume that is good, as a fraction. */
+#define VOLUME_GOOD 0.02
 
 /* Columns of momentum.csv after the time, per axis. */
 enum {
