@@ -26,7 +26,7 @@ int mps__gas_check(mps_stage *s, double phase, double sound, const double *veloc
 int mps__gas_expect(mps_stage *s, double *denser, double *volume_deviation, double *number_density);
 
 /* Gas fraction in the cell of particle i, 0..1. Cells of wall particles count if
- * mps_equation.wall_factor > 0. region: the channel of that name. */
+ * v->flux.wall_factor > 0. region: the channel of that name. */
 double mps__gas_fraction(const mps_view *v, const int32_t *region, int64_t i, double phase);
 
 /* Arrays for mps__gas_conserve(). */

@@ -40,7 +40,7 @@ static int check_header(const char *text)
         const char *name = open;
         while (name[-1] != ' ' && name[-1] != '*') name--;
         if (!is_listed(name, (size_t)(open - name)))
-            fail_msg("%.*s is in neither list of tests/shadow/test_setters.c", (int)(open - name),
+            fail_msg("%.*s is in neither list of tests/shadow/setter_calls.h", (int)(open - name),
                      name);
         found++;
     }

@@ -55,7 +55,7 @@ mps_status mps_checkpoint_write(mps_sim *sim, const char *path)
 
 mps_status mps_checkpoint_note_add(mps_sim *sim, const char *text)
 {
-    MPS__STEPS(sim);
+    MPS__SETS(sim);
     mps__context *c = &sim->context;
     MPS__CHECK(c, text && text[0], "the line of a checkpoint is NULL or empty");
     MPS__CHECK(c, strlen(text) < MPS__NOTE_SIZE && !strpbrk(text, "\n\r"),

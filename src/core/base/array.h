@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* An array on the host with a mirror in device memory. Each change of its values is a new version.
- * A memory space, and the ghosts of other ranks, are valid while they have the newest version. */
+/* An array on the host with a mirror in device memory. Each change of its values is a new version;
+ * a permutation of all fields is none. A memory space, and the ghosts of other ranks, are valid
+ * while they have the newest version. */
 #ifndef MPS_CORE_ARRAY_H
 #define MPS_CORE_ARRAY_H
 

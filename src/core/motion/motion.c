@@ -161,11 +161,7 @@ void mps__motion_point(const mps__motion *m, const mps__pose *pose, const double
 
 void mps__motion_to_tank(const mps__motion *m, const mps__pose *pose, const double *x, double *X)
 {
-    const double *R = pose->rotation;
-    double r[3] = {0, 0, 0};
-    for (int d = 0; d < m->dim; d++) r[d] = x[d] - m->centre[d] - pose->state.value[d];
-    for (int d = 0; d < m->dim; d++)
-        X[d] = m->centre[d] + (R[d] * r[0] + R[3 + d] * r[1] + R[6 + d] * r[2]);
+    mps__tank_place(m->dim, m->centre, pose->state.value, pose->rotation, x, X);
 }
 
 void mps__motion_view(const mps__motion *m, const mps__pose *pose, mps_tank_pose *view)

@@ -294,17 +294,25 @@ static mps_status look_at_edges(mps__mesh *m, mps__mesh_faults *faults, unsigned
 
 /* ---- gaps ---- */
 
-/* Merge points of `border` with the first near one. @param number  [points] out: new index */
-static mps_status find_near(const mps__mesh *m, const unsigned char *border, double tolerance,
-                            int32_t *number, mps__mesh_faults *faults)
+void mps__mesh_box(const mps__mesh *m, double lo[3], double hi[3])
 {
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    double cell = tolerance;
-    mps__buckets kept;
+    for (int d = 0; d < 3; d++) {
+        lo[d] = INFINITY;
+        hi[d] = -INFINITY;
+    }
     for (int64_t k = 0; k < 3 * m->points; k++) {
         lo[k % 3] = fmin(lo[k % 3], m->x[k]);
         hi[k % 3] = fmax(hi[k % 3], m->x[k]);
     }
+}
+
+/* Merge points of `border` with the first near one. @param number  [points] out: new index */
+static mps_status find_near(const mps__mesh *m, const unsigned char *border, double tolerance,
+                            int32_t *number, mps__mesh_faults *faults)
+{
+    double lo[3], hi[3], cell = tolerance;
+    mps__buckets kept;
+    mps__mesh_box(m, lo, hi);
     for (int d = 0; d < 3; d++) cell = fmax(cell, (hi[d] - lo[d]) / 64);
     int32_t *point = mps__alloc(m->context, m->points, sizeof *point);
     mps_status status = point ? mps__buckets_init(&kept, m->context, 3, lo, hi, cell) : MPS_E_NOMEM;

@@ -52,6 +52,8 @@ mps_status mps__mesh_reserve(mps__mesh *m, int64_t points, int64_t elements);
  * the edges (3-D), compute normals. Points of open edges within `tolerance` of each other are
  * merged. The normal of a segment is on its right. */
 mps_status mps__mesh_weld(mps__mesh *m, double tolerance, mps__mesh_faults *faults);
+/* Bounding box of all points. */
+void mps__mesh_box(const mps__mesh *m, double lo[3], double hi[3]);
 /* Enclosed volume, > 0 if the normals (counter-clockwise) point outwards. */
 double mps__mesh_volume(const mps__mesh *m);
 mps_status mps__mesh_find_shells(const mps__mesh *m, mps__mesh_shells *out);

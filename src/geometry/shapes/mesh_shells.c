@@ -3,6 +3,7 @@
  * how often sample points are enclosed. */
 #include "mesh.h"
 #include "angles.h"
+#include "union_find.h"
 #include <math.h>
 #include <string.h>
 
@@ -15,6 +16,13 @@ static const double *corner_at(const mps__mesh *m, int64_t e, int k)
     return m->x + 3 * (int64_t)m->corner[3 * e + k];
 }
 
+static double triple_product(double a[3][3])
+{
+    return a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) +
+           a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
+           a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+}
+
 /* Solid angle of a triangle over 4 pi (van Oosterom and Strackee 1983). */
 static double angle_of(const mps__mesh *m, int64_t e, const double x[3])
 {
@@ -24,9 +32,7 @@ static double angle_of(const mps__mesh *m, int64_t e, const double x[3])
         for (int d = 0; d < 3; d++) a[k][d] = c[d] - x[d];
         length[k] = sqrt(mps__dot(a[k], a[k], 3));
     }
-    const double volume = a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) +
-                          a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
-                          a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
+    const double volume = triple_product(a);
     const double below = length[0] * length[1] * length[2] + mps__dot(a[0], a[1], 3) * length[2] +
                          mps__dot(a[1], a[2], 3) * length[0] + mps__dot(a[2], a[0], 3) * length[1];
     return mps__atan2(volume, below) / (2 * MPS__PI);
@@ -41,30 +47,22 @@ static double winding(const mps__mesh *m, const int32_t *shell, int32_t which, c
     return sum;
 }
 
-static int32_t root_of(int32_t *parent, int32_t i)
-{
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
-/* Union-find over the triangles. @param shell  [points] out: number of the shell of each point
- * @return how many shells */
-static int64_t number_shells(const mps__mesh *m, int32_t *parent, int32_t *shell)
+/* Sets of points that triangles connect. @param shell  [points] out: number of the shell of each
+ * point @return how many shells */
+static int64_t number_shells(const mps__mesh *m, mps__atomic_number *parent, int32_t *shell)
 {
     int32_t count = 0;
     for (int64_t i = 0; i < m->points; i++) {
-        parent[i] = (int32_t)i;
+        mps__atomic_put(&parent[i], (int32_t)i);
         shell[i] = -1;
     }
+    for (int64_t k = 0; k < 3 * m->elements; k++)
+        mps__union_join(parent, m->corner[k], m->corner[k - k % 3]);
     for (int64_t k = 0; k < 3 * m->elements; k++) {
-        const int32_t a = root_of(parent, m->corner[k]), b = root_of(parent, m->corner[k - k % 3]);
-        parent[a < b ? b : a] = a < b ? a : b;
-    }
-    for (int64_t k = 0; k < 3 * m->elements; k++) {
-        int32_t *first = &shell[root_of(parent, m->corner[k])];
+        int32_t *first = &shell[mps__union_find(parent, m->corner[k])];
         if (*first < 0) *first = count++;
     }
-    for (int64_t i = 0; i < m->points; i++) shell[i] = shell[root_of(parent, (int32_t)i)];
+    for (int64_t i = 0; i < m->points; i++) shell[i] = shell[mps__union_find(parent, (int32_t)i)];
     return count;
 }
 
@@ -78,10 +76,7 @@ static void measure(const mps__mesh *m, const int32_t *shell, double *volume, in
         point[s] = m->corner[3 * e];
         for (int k = 0; k < 3; k++)
             for (int d = 0; d < 3; d++) a[k][d] = corner_at(m, e, k)[d] - m->x[d];
-        volume[s] += (a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1]) +
-                      a[0][1] * (a[1][2] * a[2][0] - a[1][0] * a[2][2]) +
-                      a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0])) /
-                     6;
+        volume[s] += triple_product(a) / 6;
     }
 }
 
@@ -108,11 +103,8 @@ static void find_nested(const mps__mesh *m, const int32_t *shell, mps__mesh_shel
 static void find_overlaps(const mps__mesh *m, double sign, mps__mesh_shells *out)
 {
     static const double step[3] = {0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
-    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
-    for (int64_t k = 0; k < 3 * m->points; k++) {
-        lo[k % 3] = fmin(lo[k % 3], m->x[k]);
-        hi[k % 3] = fmax(hi[k % 3], m->x[k]);
-    }
+    double lo[3], hi[3];
+    mps__mesh_box(m, lo, hi);
     out->places = (int64_t)fmin(PLACES_MOST,
                                 fmax(PLACES_LEAST, angles_most / (double)(m->elements + 1)));
     for (int64_t n = 0; n < out->places; n++) {
@@ -131,8 +123,8 @@ static void find_overlaps(const mps__mesh *m, double sign, mps__mesh_shells *out
 mps_status mps__mesh_find_shells(const mps__mesh *m, mps__mesh_shells *out)
 {
     *out = (mps__mesh_shells){0};
-    int32_t *parent = mps__alloc(m->context, m->points, sizeof *parent),
-            *shell = mps__alloc(m->context, m->points, sizeof *shell);
+    mps__atomic_number *parent = mps__alloc(m->context, m->points, sizeof *parent);
+    int32_t *shell = mps__alloc(m->context, m->points, sizeof *shell);
     if (parent && shell) {
         out->count = number_shells(m, parent, shell);
         find_nested(m, shell, out);

@@ -140,16 +140,8 @@ static void turn_point(const double rotation[3], double *x)
 static void place_mesh(mps__mesh *m, const mps_stl *s, double *lo, double *hi)
 {
     for (int64_t k = 0; k < m->points; k++) turn_point(s->rotation, m->x + 3 * k);
-    for (int d = 0; d < 3; d++) {
-        lo[d] = INFINITY;
-        hi[d] = -INFINITY;
-    }
-    for (int64_t k = 0; k < 3 * m->points; k++) {
-        const int d = (int)(k % 3);
-        m->x[k] = m->x[k] * s->scale + s->shift[d];
-        lo[d] = fmin(lo[d], m->x[k]);
-        hi[d] = fmax(hi[d], m->x[k]);
-    }
+    for (int64_t k = 0; k < 3 * m->points; k++) m->x[k] = m->x[k] * s->scale + s->shift[k % 3];
+    mps__mesh_box(m, lo, hi);
 }
 
 static void log_notes(mps__context *c, const char *path, const mps__stl_notes *n)

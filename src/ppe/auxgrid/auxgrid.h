@@ -15,7 +15,6 @@ enum {
     MPS__GRID_LEVELS = 22,  /* after 19 halvings four cells are left along each axis */
     MPS__GRID_DIRECT = 150, /* fewer cells are solved directly */
     MPS__GRID_ABOUT = 27,   /* a cell and its neighbours, in 3-D */
-    MPS__GRID_VISITS = 256, /* cells whose particles justify a second thread */
     /* many ranks: a grid of at least this many cells is divided among the ranks */
     MPS__GRID_WHOLE = 65536
 };
