@@ -29,6 +29,8 @@ need_packages() {
         return
     fi
     [ "$(id -u)" = 0 ] || sudo=(sudo)
+    # an installation that was cut short stops every later one until it is finished; else this does nothing
+    "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive dpkg --configure -a
     echo "Installing with ${sudo[*]:+sudo }apt-get: ${missing[*]}"
     "${sudo[@]}" apt-get update -qq
     "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}"
