@@ -176,11 +176,10 @@ int cli_flush(const choices *c, int code)
     errno = 0;
     const bool good = fflush(stdout) == 0 && !ferror(stdout);
     if (good || code != MPS_EXIT_OK) return code;
-    cli_print(c, "mps %s: cannot write to stdout: %s\n", c->verb,
-              strerror(errno    ? errno
-                       : before ? before
-                                : EIO));
-    return MPS_EXIT_FAILED;
+    const int reason = errno ? errno : before ? before : EIO;
+    if (reason != EPIPE) /* a reader such as head has what it wants */
+        cli_print(c, "mps %s: cannot write to stdout: %s\n", c->verb, strerror(reason));
+    return reason == EPIPE ? MPS_EXIT_OK : MPS_EXIT_FAILED;
 }
 
 void cli_stem(const char *path, char *out, size_t size)

@@ -84,14 +84,22 @@ static double find_harmonic(const signal *s)
     return mps_harmonics_find(s->config, s->n, s->t, s->value, &h) == MPS_OK ? h.amplitude[0] : NAN;
 }
 
+static const char TOO_FEW[] = "too few impacts for a distribution; 'mps stats DIR' prints the "
+                              "number and the time that are needed";
+
 static const struct {
     const char *name;
     double (*find)(const signal *s);
-    bool pressure; /* for pressures only */
-} STATISTICS[] = {{"max", find_max, false},          {"min", find_min, false},
-                  {"mean", find_mean, false},        {"last", find_last, false},
-                  {"p3h", find_p3h, true},           {"p3h_pareto", find_p3h_pareto, true},
-                  {"harmonic", find_harmonic, false}};
+    bool pressure;     /* for pressures only */
+    const char *needs; /* what a run without a value lacks, or NULL */
+} STATISTICS[] = {
+    {"max", find_max, false, NULL},
+    {"min", find_min, false, NULL},
+    {"mean", find_mean, false, NULL},
+    {"last", find_last, false, NULL},
+    {"p3h", find_p3h, true, TOO_FEW},
+    {"p3h_pareto", find_p3h_pareto, true, TOO_FEW},
+    {"harmonic", find_harmonic, false, "a periodic motion, and one period of it, are needed"}};
 
 enum { STATISTIC_COUNT = sizeof STATISTICS / sizeof *STATISTICS };
 
@@ -120,7 +128,7 @@ bool collect_read(collect *s, const mps_case *tank, const char *name)
     s->verb = name;
     s->entries = 0;
     if (!series_key(tank, "collect", s->text, sizeof s->text)) {
-        s->entry[s->entries++] = (collect_entry){"", 0};
+        s->entry[s->entries++] = (collect_entry){.sensor = ""};
         return true;
     }
     char *rest = NULL;
@@ -134,7 +142,7 @@ bool collect_read(collect *s, const mps_case *tank, const char *name)
                                 "must be a sensor and one of these statistics, as in P1.max:");
         if (s->entries == COLLECT_MOST) return refuse_entry(s, word, "is one too many of");
         *dot = '\0';
-        s->entry[s->entries++] = (collect_entry){word, k};
+        s->entry[s->entries++] = (collect_entry){.sensor = word, .statistic = k};
     }
     return true;
 }
@@ -174,7 +182,7 @@ void collect_names(const collect *s, FILE *out, const mps_table *rows)
         }
 }
 
-void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
+void collect_values(collect *s, FILE *out, const mps_table *first, const char *folder,
                     const mps_table *rows)
 {
     char error[640] = "";
@@ -191,8 +199,22 @@ void collect_values(const collect *s, FILE *out, const mps_table *first, const c
             const bool known = here && strcmp(here, name) == 0;
             const signal one = {known ? mps_table_rows(rows) : 0, mps_table_values(rows, -1),
                                 mps_table_values(rows, j), &config};
-            fprintf(out, ",%.9g", known ? STATISTICS[s->entry[k].statistic].find(&one) : NAN);
+            const double value = known ? STATISTICS[s->entry[k].statistic].find(&one) : NAN;
+            fprintf(out, ",%.9g", value);
+            s->entry[k].runs += known;
+            s->entry[k].missing += known && isnan(value) && STATISTICS[s->entry[k].statistic].needs;
         }
+}
+
+void collect_print_missing(const collect *s)
+{
+    for (int32_t k = 0; k < s->entries; k++) {
+        const collect_entry *e = &s->entry[k];
+        if (e->missing == 0) continue;
+        fprintf(stderr, "mps %s: %s.%s: %d of %d values are nan: %s\n", s->verb, e->sensor,
+                STATISTICS[e->statistic].name, (int)e->missing, (int)e->runs,
+                STATISTICS[e->statistic].needs);
+    }
 }
 
 void collect_text(FILE *out, const char *text)

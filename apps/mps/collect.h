@@ -13,6 +13,7 @@ enum { COLLECT_SIZE = 4096, COLLECT_MOST = 64 };
 typedef struct collect_entry {
     const char *sensor; /* "": all columns */
     int32_t statistic;
+    int32_t runs, missing; /* values of finished runs; those that are nan */
 } collect_entry;
 
 typedef struct collect {
@@ -34,8 +35,11 @@ void collect_names(const collect *s, FILE *out, const mps_table *rows);
 /* Write the values of a run. Columns are those of `first`; a column missing in the run is nan.
  * @param folder  of the run, for the constants of its statistics
  * @param rows  NULL: it has none */
-void collect_values(const collect *s, FILE *out, const mps_table *first, const char *folder,
+void collect_values(collect *s, FILE *out, const mps_table *first, const char *folder,
                     const mps_table *rows);
+
+/* Print which of the values written are nan, and why. */
+void collect_print_missing(const collect *s);
 
 /* Write a text as a field of a CSV file, after a comma. */
 void collect_text(FILE *out, const char *text);

@@ -171,7 +171,7 @@ static double si_value(const collected_run *r, const char *key, char unit[UNIT_S
     const char *text = value_of(r, key);
     double value = NAN;
     unit[0] = '\0';
-    if (text && mps_case_quantity(text, summary_number(r->folder, "dp_asked"),
+    if (text && mps_case_quantity(text, summary_number(r->folder, "dp_requested"),
                                   summary_T1(r->folder), &value, unit, UNIT_SIZE) != MPS_OK)
         unit[0] = '\0';
     return value;
@@ -201,7 +201,7 @@ static void write_names(const collection *g, FILE *out, const mps_table *first)
     fputc('\n', out);
 }
 
-static void write_run(const collection *g, FILE *out, int32_t i, const mps_table *first)
+static void write_run(collection *g, FILE *out, int32_t i, const mps_table *first)
 {
     const collected_run *r = &g->run[i];
     char unit[UNIT_SIZE];
@@ -233,9 +233,20 @@ static bool read_collect(collection *g, const char *folder)
     return good;
 }
 
+/* Of one folder of runs, its own table; of others a table here, as no folder is to lose its own. */
+static const char *table_path(const collection *g, char path[SERIES_PATH + 16])
+{
+    const char *folder = g->c->file[0];
+    if (g->c->out) return g->c->out;
+    if (g->c->files > 1 || has_summary(folder)) return "collected.csv";
+    snprintf(path, SERIES_PATH + 16, "%s/sweep.csv", folder);
+    return path;
+}
+
 static int write_all(collection *g)
 {
     char path[SERIES_PATH + 16];
+    const char *table = table_path(g, path);
     mps_table *first = NULL;
     int32_t of = 0;
     for (; of < g->runs && !first; of++)
@@ -246,13 +257,14 @@ static int write_all(collection *g)
     }
     int code = MPS_EXIT_USAGE;
     if (read_collect(g, g->run[of - 1].folder) && collect_fits(&g->collect, first)) {
-        snprintf(path, sizeof path, "%s/sweep.csv", g->c->file[0]);
-        FILE *out = collect_open(g->c->out ? g->c->out : path);
+        FILE *out = collect_open(table);
         if (out) write_names(g, out, first);
         for (int32_t i = 0; out && i < g->runs; i++) write_run(g, out, i, first);
-        code = collect_close(g->c->verb, out, g->c->out ? g->c->out : path);
-        if (code == MPS_EXIT_OK)
-            printf("%s: %d runs\n", g->c->out ? g->c->out : path, (int)g->runs);
+        code = collect_close(g->c->verb, out, table);
+        if (code == MPS_EXIT_OK) {
+            printf("%s: %d runs\n", table, (int)g->runs);
+            collect_print_missing(&g->collect);
+        }
     }
     mps_table_destroy(first);
     return code;

@@ -39,7 +39,7 @@ static double si_value(const sweep *s, int64_t index, int32_t k, char unit[UNIT_
         !series_folder(s->p.place, index, folder))
         return NAN;
     if (s->p.code[index] == MPS_EXIT_OK) {
-        dp = summary_number(folder, "dp_asked");
+        dp = summary_number(folder, "dp_requested");
         T1 = summary_T1(folder);
     }
     if (mps_case_quantity(set + strcspn(set, "=") + 1, dp, T1, &value, unit, UNIT_SIZE) != MPS_OK)
@@ -79,7 +79,7 @@ static void write_names(const sweep *s, FILE *out, const mps_table *rows)
     fputc('\n', out);
 }
 
-static void write_run(const sweep *s, FILE *out, int64_t index, const mps_table *first)
+static void write_run(sweep *s, FILE *out, int64_t index, const mps_table *first)
 {
     char set[SERIES_VALUE], folder[SERIES_PATH] = "", unit[UNIT_SIZE];
     const int code = s->p.code[index];
@@ -97,7 +97,7 @@ static void write_run(const sweep *s, FILE *out, int64_t index, const mps_table 
     mps_table_destroy(rows);
 }
 
-static int write_table(const sweep *s)
+static int write_table(sweep *s)
 {
     char path[SERIES_PATH + 16];
     mps_table *first = NULL;
@@ -109,8 +109,9 @@ static int write_table(const sweep *s)
     for (int64_t i = 0; out && i < s->p.runs; i++) write_run(s, out, i, first);
     mps_table_destroy(first);
     const int code = collect_close(s->p.c->verb, out, path);
-    if (code == MPS_EXIT_OK && !s->p.c->quiet)
-        fprintf(stderr, "mps %s: table of the runs: %s\n", s->p.c->verb, path);
+    if (code != MPS_EXIT_OK || s->p.c->quiet) return code;
+    fprintf(stderr, "mps %s: table of the runs: %s\n", s->p.c->verb, path);
+    collect_print_missing(&s->collect);
     return code;
 }
 

@@ -97,7 +97,7 @@ static const char COLLECT_TEXT[] =
     "A folder is that of a run, or one with the folders of runs, as a sweep leaves it. The table\n"
     "has a row for each run: the texts of the inputs that differ, the same in SI (NAME.si), the\n"
     "exit code, and what 'collect' of the case names, as in sweep.csv. nan: a run is not done.\n"
-    "It is DIR/sweep.csv of the first folder, or --out.\n";
+    "It is DIR/sweep.csv of one folder of runs, else collected.csv here, or --out.\n";
 
 enum {
     SERIES_OPTIONS = HAS_CASE | HAS_OUT | HAS_THREADS | HAS_OVERWRITE | HAS_QUIET | HAS_DEVICE |

@@ -57,9 +57,9 @@ static void volumes(void **state)
     tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {depth: 3 m}}]\n" END,
           "the tank alone holds 30 m2 up to the level", NULL);
     tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {box: [0 0 m, 5 3 m]}}]\n" END,
-          "of 15 m2 asked for", "holds");
+          "of 15 m2 requested", "holds");
     tells("mps: 1\ndp: 0.5 m\ntank: {size: 10 5 m}\nfill: [{water: {box: [0 0 m, 5 3 m]}}]\n" END,
-          "of 15 m2 asked for", "mps_");
+          "of 15 m2 requested", "mps_");
 }
 
 /* The enclosed volume of a file: it reveals a wrong unit or axis. */
@@ -80,16 +80,16 @@ static void plates(void **state)
     (void)state;
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 6 m], holes: {pitch: 3 m, open: 40 %}}\n" END,
           "b: plate as built (10, 0) m to (10, 6) m, 2 slots from the first point at 1..2, 4..5 m, "
-          "1 m wide = 2 dp, asked 1.2 m",
+          "1 m wide = 2 dp, requested 1.2 m",
           NULL);
     /* whole pitches */
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 6 m], holes: {pitch: 9 m, open: 40 %}}\n" END,
-          "1 slot from the first point at 2..4 m, 2 m wide = 4 dp, asked 2.4 m", NULL);
+          "1 slot from the first point at 2..4 m, 2 m wide = 4 dp, requested 2.4 m", NULL);
     /* 14 m in seven pitches of 2 m: rounding makes no slot narrower than 2 dp */
     tells("mps: 1\ndp: 0.2 m\ntank: {size: 20 20 m}\nfill: [{water: {depth: 2 m}}]\n"
           "solids:\n  b: {plate: [10 0 m, 10 14 m], holes: {pitch: 2 m, open: 20 %}}\n" END,
           "7 slots from the first point at 0.8..1.2, 2.8..3.2, 4.8..5.2, 6.8..7.2, .., 12.8..13.2 "
-          "m, 0.4 m wide = 2 dp, asked 0.4 m",
+          "m, 0.4 m wide = 2 dp, requested 0.4 m",
           NULL);
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 4.5 m]}\n" END, divides, NULL);
     tells(TANK "solids:\n  b: {plate: [10 0 m, 10 3 m]}\n" END, NULL, divides);
@@ -107,14 +107,14 @@ static void as_built(void **state)
     tells(SMALL "{box: [0.41 0.1 m, 0.59 0.229 m]}\n" END,
           "b: box as built (0.41, 0.1) m to (0.59, 0.229) m\n", "asked (");
     tells(SMALL "{box: [0.401 0 m, 0.601 0.119 m]}\n" END,
-          "b: box as built (0.4, 0) m to (0.6, 0.12) m, asked (0.401, 0) m to (0.601, 0.119) m\n",
+          "b: box as built (0.4, 0) m to (0.6, 0.12) m, requested (0.401, 0) m to (0.601, 0.119) m\n",
           NULL);
     tells(SMALL "{box: [0.401 0 m, 0.432 0.115 m]}\n" END,
-          "b: box as built (0.4, 0) m to (0.44, 0.12) m, asked (0.401, 0) m to (0.432, 0.115) m "
+          "b: box as built (0.4, 0) m to (0.44, 0.12) m, requested (0.401, 0) m to (0.432, 0.115) m "
           "(boxes thinner than 3 dp are on the lattice)\n",
           NULL);
     tells(SMALL "{plate: [0.411 0 m, 0.411 0.119 m]}\n" END,
-          "b: plate as built (0.42, 0) m to (0.42, 0.12) m, asked (0.411, 0) m to (0.411, 0.119) m "
+          "b: plate as built (0.42, 0) m to (0.42, 0.12) m, requested (0.411, 0) m to (0.411, 0.119) m "
           "(plates along axes are on the lattice)\n",
           NULL);
 #undef SMALL

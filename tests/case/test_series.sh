@@ -70,6 +70,13 @@ head -1 two.csv | grep -qF 'run,motion.surge.amplitude,motion.surge.period,motio
     fail "names of a collected table: $(head -1 two.csv)"
 T1=$(sed -n 's/.*"T1", "value": "\([.0-9]*\) s.*/\1/p' one/001/summary.json)
 grep -q "^one/004,5 mm,1 T1,0.005,$T1,0,$(grep ^004 one/sweep.csv | cut -d, -f7)$" two.csv || fail "$T1: $(cat two.csv)"
+# of more folders, or of one run, no folder loses its own table
+cp one/sweep.csv own.csv
+expect 0 "collected.csv: 8 runs" "$program" collect one some
+cmp two.csv collected.csv && cmp own.csv one/sweep.csv || fail "a table of two folders"
+expect 0 "collected.csv: 1 runs" "$program" collect one/001
+[ ! -e one/001/sweep.csv ] && [ "$(wc -l < collected.csv)" -eq 2 ] || fail "a table of one run"
+rm collected.csv
 expect 2 "is no folder of a run" "$program" collect .
 expect 2 "No such file" "$program" collect nowhere
 

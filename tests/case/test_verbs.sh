@@ -71,6 +71,10 @@ for verb in schema "list keys" "list units" "check small.yaml" "info small.yaml"
     [ $? -eq 1 ] || fail "$verb to a full device: exit code"
     says "mps ${verb%% *}: cannot write to stdout: No space left"
 done
+# a reader that closes the pipe has what it wants
+"$program" list keys 2> log | true
+[ "${PIPESTATUS[0]}" -eq 0 ] || fail "a closed pipe: exit code"
+silent "a closed pipe"
 
 # ---- closed streams are no outputs
 "$program" list cases <&- > log || fail "list without stdin"

@@ -30,7 +30,7 @@ static void texts(void **state)
     (void)state;
     scene_create(&s);
     text_write(&s, "summary.json",
-               "{\"title\": \"T\", \"dim\": 2, \"dp\": 0.05, \"dp_asked\": 0.06, \"lattice\": "
+               "{\"title\": \"T\", \"dim\": 2, \"dp\": 0.05, \"dp_requested\": 0.06, \"lattice\": "
                "[0.05, 0.048], \"columns\": [{\"name\": \"P1\", \"unit\": \"Pa\"}], \"inputs\": "
                "[{}, {\"key\": \"fill\"}, {\"key\": \"model\", \"value\": \"a & b\"}], "
                "\"references\": [{\"label\": \"a \\\"b\\\" \\\\ </script>\\u0007\", \"points\": "
@@ -38,7 +38,7 @@ static void texts(void **state)
     HAS(&s, "\"label\": \"a \\\"b\\\" \\\\ \\u003c/script\\u003e\xef\xbf\xbd\"", "[[0, 1], [4, 5]]",
         "{\"label\": \"reference\", \"unit\": \"\", \"column\": \"P1\", \"line\": false, "
         "\"points\": []}",
-        "as asked for</th><td>60 mm", "cells</th><td>50 mm x 48 mm", "model</th><td>a &amp; b");
+        "as requested</th><td>60 mm", "cells</th><td>50 mm x 48 mm", "model</th><td>a &amp; b");
     scene_remove(&s);
 }
 

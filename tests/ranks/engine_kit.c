@@ -219,7 +219,7 @@ static void check_owners(kit *k, int dim)
     for (int i = 0; i < COMMON; i++) {
         expect(k, owner[i] >= 0 && owner[i] < k->ranks, "owner is %d", (int)owner[i]);
         expect(k, !k->ops->owner(k->self, 1, x + i * dim, &again) && again == owner[i],
-               "owner depends on how many places are asked for");
+               "owner depends on how many places are requested");
     }
     expect_alike(k, owner, sizeof owner, "owner of a place");
     check_boxes(k, dim, x, owner);

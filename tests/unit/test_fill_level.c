@@ -49,7 +49,7 @@ static void rounding_is_told(void **state)
         sim = logging(dim, 0.01);
         const double even[3] = {0.4, 0.09, 0.1};
         ASSERT_OK(sim, mps_fill_box_add(sim, 0, lo, even, NULL, built));
-        if (strstr(logged, "became") || !strstr(logged, "asked for, +0 %"))
+        if (strstr(logged, "became") || !strstr(logged, "requested, +0 %"))
             fail_msg("\"%s\"", logged);
         mps_sim_destroy(sim);
     }

@@ -232,8 +232,8 @@ static void wrong_counts(void **state)
     mps_sim *sim = cloud_sim(100, 2);
     for (size_t k = 0; k < sizeof counts / sizeof counts[0]; k++) {
         wanted_count = counts[k];
-        snprintf(sums, sizeof sums, "asked for %d sums: must be 1..16", (int)counts[k]);
-        snprintf(most, sizeof most, "asked for %d maxima: must be 1..16", (int)counts[k]);
+        snprintf(sums, sizeof sums, "requests %d sums: must be 1..16", (int)counts[k]);
+        snprintf(most, sizeof most, "requests %d maxima: must be 1..16", (int)counts[k]);
         play = sum_many;
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, sums);
         ASSERT_REFUSED(sim, mps_step(sim, 1, NULL), MPS_E_PLUGIN, "player.toy");

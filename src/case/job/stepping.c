@@ -190,7 +190,7 @@ static bool open_job(mps_job *job)
     return mps__job_agree(job);
 }
 
-/* "0.0199 m (0.02 m asked for, cells 0.0198 x 0.02 m)": only the parts that differ. */
+/* "0.0199 m (0.02 m requested, cells 0.0198 x 0.02 m)": only the parts that differ. */
 static void describe_spacing(const mps_job *job, char text[SPACING_TEXT])
 {
     const double dp = job->dp, asked = job->config.dp;
@@ -199,7 +199,7 @@ static void describe_spacing(const mps_job *job, char text[SPACING_TEXT])
     int used = snprintf(text, SPACING_TEXT, "%g m", dp);
     const bool other = asked > 0 && fabs(asked - dp) > 1e-6 * dp;
     if (other)
-        used += snprintf(text + used, SPACING_TEXT - (size_t)used, " (%g m asked for", asked);
+        used += snprintf(text + used, SPACING_TEXT - (size_t)used, " (%g m requested", asked);
     mps_lattice_get(job->sim, NULL, h);
     for (int d = 0; d < job->dim; d++) cubes = cubes && fabs(h[d] - dp) <= 1e-6 * dp;
     if (!cubes)

@@ -294,7 +294,7 @@ static void summary_spacing(FILE *out, const mps_job *job)
 {
     double h[3];
     json_number(out, "dp", job->dp);
-    if (job->config.dp > 0) json_number(out, "dp_asked", job->config.dp);
+    if (job->config.dp > 0) json_number(out, "dp_requested", job->config.dp);
     if (mps_lattice_get(job->sim, NULL, h) != MPS_OK) return;
     fputs(",\n  \"lattice\": [", out);
     for (int d = 0; d < job->dim; d++) fprintf(out, "%s%.17g", d ? ", " : "", h[d]);

@@ -59,7 +59,7 @@ static void write_spacing(const writer *w, const build *b)
     bool cubes = true;
     fprintf(w->file, "dp %s", length_text(b->dp, text, sizeof text));
     if (mps_sim_shape(b->sim, &dim, &dp) == MPS_OK && fabs(dp - b->dp) > 1e-6 * dp)
-        fprintf(w->file, " asked for, %s built", length_text(dp, text, sizeof text));
+        fprintf(w->file, " requested, %s built", length_text(dp, text, sizeof text));
     if (mps_lattice_get(b->sim, NULL, h) != MPS_OK) return;
     for (int32_t d = 0; d < b->dim; d++) cubes = cubes && fabs(h[d] - dp) <= 1e-6 * dp;
     if (cubes) return;
@@ -98,7 +98,7 @@ static void write_slots(const writer *w, const build *b, const build_solid *s)
     }
     fprintf(w->file, ", %.4g", narrowest);
     if (widest - narrowest > 1e-6 * b->dp) fprintf(w->file, " to %.4g", widest);
-    fprintf(w->file, " m wide = %.3g dp, asked %.4g m", narrowest / b->dp, s->gap);
+    fprintf(w->file, " m wide = %.3g dp, requested %.4g m", narrowest / b->dp, s->gap);
 }
 
 /* Write a solid in one line: as built, and as requested if that differs. */
@@ -119,7 +119,7 @@ static void write_solid(const writer *w, const build *b, const build_solid *s)
     fprintf(w->file, ": %s as built ", s->box ? "box" : "plate");
     write_corners(w, b, from, to);
     if (off > 1e-6 * b->dp) {
-        fprintf(w->file, ", asked ");
+        fprintf(w->file, ", requested ");
         write_corners(w, b, s->asked[0], s->asked[1]);
         if (s->why) fprintf(w->file, " (%s)", s->why);
     }
@@ -264,7 +264,7 @@ static void write_fluids(const writer *w, build *b)
     }
     if (mps__build_filled(b)) {
         mps__check_heading(w, "level");
-        fprintf(w->file, "y = %.5g m as filled, %.5g m asked for\n", b->level,
+        fprintf(w->file, "y = %.5g m as filled, %.5g m requested\n", b->level,
                 b->tank.form.lo[1] + b->depth);
         write_rows(w, b);
         write_top(w, b);

@@ -80,7 +80,7 @@ static void as_asked(build *b, build_modes *m)
     m->length = b->tank.size[a];
     m->depth = b->depth;
     snprintf(m->how, sizeof m->how,
-             "rectangular tank: length %.4g m and depth %.4g m as asked for, w^2 = g k tanh(k h)",
+             "rectangular tank: length %.4g m and depth %.4g m as requested, w^2 = g k tanh(k h)",
              m->length, m->depth);
 }
 
@@ -106,7 +106,7 @@ static bool by_section(build *b, build_modes *m)
         m->period[m->count] = 2 * acos(-1.0) / sqrt(b->gravity * value[m->count]);
     m->length = plane.hi[0] - plane.lo[0];
     m->depth = b->depth;
-    snprintf(m->how, sizeof m->how, "potential flow in the section, filled %.4g m as asked for",
+    snprintf(m->how, sizeof m->how, "potential flow in the section, filled %.4g m as requested",
              b->depth);
     return true;
 }

@@ -257,7 +257,7 @@ const mps__key mps__keys[] = {
     NAMES("sensors", "what is measured; each is a column, or several, of probes.csv"),
     ITEM("sensors.*", "a sensor; it moves with the tank"),
     MANY("sensors.*.wall", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "0 50 mm", "pressure at a place on a wall"),
-    POINTS("sensors.*.panel", 2, 4, "[0 455 mm, 215 670 mm]", "mean pressure of a panel on a wall: its ends, in 3-D corners"),
+    POINTS("sensors.*.panel", 2, 4, "[0 455 mm, 215 670 mm]", "mean pressure of a panel on a wall: 2 ends; in 3-D 3 or 4 corners in order, or 2 opposite ones"),
     POINTS("sensors.*.row", 2, 2, "[0 0 m, 0.5 0.3 m]", "sensors evenly along a line on a wall, of which one value is taken"),
     MANY("sensors.*.pressure", UNIT_LENGTH, COUNT_DIM, COUNT_DIM, "", "", "0.4 0.1 m", "pressure at a place in the fluid"),
     MANY("sensors.*.gauge", UNIT_LENGTH, 1, 3, "", "", "1 dp",

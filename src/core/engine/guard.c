@@ -77,7 +77,7 @@ mps_status mps__guard_begin(mps__guard *g, const mps__runner *h, const mps__call
 {
     *g = (mps__guard){0};
     list_arrays(g, h, call);
-    g->copies = mps__alloc(h->context, h->particles->n, g->element);
+    g->copies = mps__alloc(h->context, h->particles->n * (int64_t)g->element, 1);
     if (!g->copies) return MPS_E_NOMEM;
     for (int32_t k = 0; k < g->count; k++)
         memcpy(copy_of(g, h, k), g->list[k].array, (size_t)h->particles->n * g->list[k].element);

@@ -68,7 +68,7 @@ double *mps_stage_state(mps_stage *s, int64_t count)
     mps__runner *h = s->host;
     if (s->hook == MPS_POPULATE || count < 0 || !h->model) {
         mps_stage_fail(s,
-                       "mps_stage_state() was asked for %lld numbers in hook %d: must be >= 0, "
+                       "mps_stage_state() requests %lld numbers in hook %d: must be >= 0, "
                        "after MPS_POPULATE",
                        (long long)count, (int)s->hook);
         return NULL;

@@ -262,8 +262,8 @@ static bool begin_values(const mps_stage *s, int32_t count, const char *what, do
     for (int32_t m = 0; m < count && m < MPS_PARALLEL_VALUES; m++) values[m] = first;
     if (count >= 1 && count <= MPS_PARALLEL_VALUES) return true;
     h->misused = true;
-    mps__fail(h->context, MPS_E_PLUGIN, "a loop was asked for %d %s: must be 1..%d", (int)count,
-              what, MPS_PARALLEL_VALUES);
+    mps__fail(h->context, MPS_E_PLUGIN, "a loop requests %d %s: must be 1..%d", (int)count, what,
+              MPS_PARALLEL_VALUES);
     return false;
 }
 

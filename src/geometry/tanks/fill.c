@@ -259,7 +259,7 @@ static void report_volume(const mps__lattice_plan *p, const double *lo, const do
         built = asked + ((double)t.chosen - t.wanted) * cell;
     const double error = asked > 0 ? built / asked - 1 : 0;
     mps__log(&p->sim->context, MPS_LOG_INFO,
-             "fill of phase %d: %.6g m%d of %.6g m%d asked for, %+.2g %%%s", (int)p->phase, built,
+             "fill of phase %d: %.6g m%d of %.6g m%d requested, %+.2g %%%s", (int)p->phase, built,
              (int)p->dim, asked, (int)p->dim, 100 * error,
              lo && !p->keeps && fabs(error) > 0.002 ? "; mps_fill_level_add() keeps the volume"
                                                     : "");

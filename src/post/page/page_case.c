@@ -68,11 +68,11 @@ static void write_fluids(FILE *out, const page_run *r)
 static void row_spacing(FILE *out, const page_run *r)
 {
     const json_value *list = mps__json_get(r->summary, "lattice");
-    const double dp = mps__page_number(r, "dp"), asked = mps__page_number(r, "dp_asked");
+    const double dp = mps__page_number(r, "dp"), asked = mps__page_number(r, "dp_requested");
     char text[160] = "", one[TEXT_NUMBER];
     bool cubes = true;
     if (isfinite(asked) && fabs(asked - dp) > 1e-6 * dp)
-        row_number(out, r, "as asked for", "dp_asked", "m");
+        row_number(out, r, "as requested", "dp_requested", "m");
     for (size_t d = 0; d < mps__json_count(list) && d < 3; d++) {
         const double h = mps__json_number(mps__json_at(list, d));
         const size_t used = strlen(text);
