@@ -103,9 +103,9 @@ static void as_built(void **state)
     "mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 0.3 m}}]\nsolids:\n  b: "
     (void)state;
     tells(SMALL "{box: [0.405 0 m, 0.595 0.125 m]}\n" END,
-          "b: box as built (0.405, 0) m to (0.595, 0.125) m\n", "asked (");
+          "b: box as built (0.405, 0) m to (0.595, 0.125) m\n", "requested (");
     tells(SMALL "{box: [0.41 0.1 m, 0.59 0.229 m]}\n" END,
-          "b: box as built (0.41, 0.1) m to (0.59, 0.229) m\n", "asked (");
+          "b: box as built (0.41, 0.1) m to (0.59, 0.229) m\n", "requested (");
     tells(SMALL "{box: [0.401 0 m, 0.601 0.119 m]}\n" END,
           "b: box as built (0.4, 0) m to (0.6, 0.12) m, requested (0.401, 0) m to (0.601, 0.119) m\n",
           NULL);
