@@ -106,15 +106,18 @@ static void as_built(void **state)
           "b: box as built (0.405, 0) m to (0.595, 0.125) m\n", "requested (");
     tells(SMALL "{box: [0.41 0.1 m, 0.59 0.229 m]}\n" END,
           "b: box as built (0.41, 0.1) m to (0.59, 0.229) m\n", "requested (");
-    tells(SMALL "{box: [0.401 0 m, 0.601 0.119 m]}\n" END,
-          "b: box as built (0.4, 0) m to (0.6, 0.12) m, requested (0.401, 0) m to (0.601, 0.119) m\n",
-          NULL);
-    tells(SMALL "{box: [0.401 0 m, 0.432 0.115 m]}\n" END,
-          "b: box as built (0.4, 0) m to (0.44, 0.12) m, requested (0.401, 0) m to (0.432, 0.115) m "
-          "(boxes thinner than 3 dp are on the lattice)\n",
-          NULL);
+    tells(
+        SMALL "{box: [0.401 0 m, 0.601 0.119 m]}\n" END,
+        "b: box as built (0.4, 0) m to (0.6, 0.12) m, requested (0.401, 0) m to (0.601, 0.119) m\n",
+        NULL);
+    tells(
+        SMALL "{box: [0.401 0 m, 0.432 0.115 m]}\n" END,
+        "b: box as built (0.4, 0) m to (0.44, 0.12) m, requested (0.401, 0) m to (0.432, 0.115) m "
+        "(boxes thinner than 3 dp are on the lattice)\n",
+        NULL);
     tells(SMALL "{plate: [0.411 0 m, 0.411 0.119 m]}\n" END,
-          "b: plate as built (0.42, 0) m to (0.42, 0.12) m, requested (0.411, 0) m to (0.411, 0.119) m "
+          "b: plate as built (0.42, 0) m to (0.42, 0.12) m, requested (0.411, 0) m to (0.411, "
+          "0.119) m "
           "(plates along axes are on the lattice)\n",
           NULL);
 #undef SMALL
