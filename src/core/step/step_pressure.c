@@ -17,10 +17,10 @@ static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
     const double dt = q->view.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->state.spread > 0
-                    ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
-                    : wanted;
-    *gain = dt / (dt + q->spread);
+    q->next.spread = q->w->state.spread > 0
+                         ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
+                         : wanted;
+    *gain = dt / (dt + q->next.spread);
 }
 
 typedef struct law_fields {
@@ -64,8 +64,8 @@ static void note_level(mps__step *q)
 {
     mps__world *w = q->w;
     q->stage.level_free = w->ppe.level_free;
-    if (!w->ppe.level_free || w->state.level_told) return;
-    w->state.level_told = true;
+    if (!w->ppe.level_free || q->next.level_told) return;
+    q->next.level_told = true;
     mps__log(w->context, MPS_LOG_INFO,
              "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a "
              "level; their mean is zero",
@@ -167,11 +167,10 @@ static mps_status log_failure(mps_stage *s, mps_status status)
     if (status == MPS_E_SOLVER) {
         const mps_view *device_view = w->ppe.device ? mps__runner_begin_serial(s) : NULL;
         mps__memory_sync_fields(&w->runner.memory);
-        mps__world_ask_result(w, &q->view, &q->pose, &q->outcome);
+        mps__step_ask_result(q);
         mps__runner_flush(&w->runner);
         mps_status found = mps__runner_check_reactions(&w->runner, q->view.t);
-        if (found == MPS_OK)
-            found = mps__world_check_result(w, &q->view, false, &q->outcome, &q->info);
+        if (found == MPS_OK) found = mps__step_check_result(q, false);
         if (device_view) mps__runner_end_serial(s, device_view);
         MPS__TRY(found);
     }
