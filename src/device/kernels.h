@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Kernels of a device, from the loops of the library. scripts/device_rows compiles each file with
- * loops for NVPTX or SPIR and includes this header first: MPS_ROWS() and the other loop macros then
- * define kernels for 2-D and 3-D instead of the loop of the host. The rest of the file is compiled
- * and dropped. MPS_UNIT is the name of the file without its suffix. */
+ * loops for NVPTX or SPIR and includes this header first: the loop macros then define kernels for
+ * 2-D and 3-D instead of the loop of the host; the script finds those that do not depend on the
+ * dimension. The rest of the file is compiled and dropped. MPS_UNIT is the name of the file without
+ * its suffix. */
 #ifndef MPS_DEVICE_KERNELS_H
 #define MPS_DEVICE_KERNELS_H
 
@@ -117,8 +118,8 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
                MPSK__STORE_SOME)                                                                 \
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
 
-#undef MPS__LOOP
-#define MPS__LOOP(name, row, type)                    \
+#undef MPS__LOOP_OF
+#define MPS__LOOP_OF(name, row, type, host)           \
     typedef struct name##_given {                     \
         mps__launch launch;                           \
         type fields;                                  \
@@ -126,8 +127,8 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     MPSK__BOTH(name, row(dim_, &given_->fields, i_);) \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
-#undef MPS__VALUES
-#define MPS__VALUES(name, row, type, sums, maxima)                                                \
+#undef MPS__VALUES_OF
+#define MPS__VALUES_OF(name, row, type, sums, maxima, host)                                       \
     typedef struct name##_given {                                                                 \
         mps__launch launch;                                                                       \
         type fields;                                                                              \
@@ -150,17 +151,5 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
         together(&given_->fields, mps__thread_lane(), !MPSK__CANCELLED(given_->launch)); \
     }                                                                                    \
     static const mps__loop name = {#name, sizeof(type), NULL};
-
-/* The specialised loops of the host are for its vector units. scripts/device_rows itself finds the
- * kernels that do not depend on the dimension. */
-#undef MPS__LOOP_ANY
-#define MPS__LOOP_ANY(name, row, type) MPS__LOOP(name, row, type)
-#undef MPS__LOOP_CHEAP
-#define MPS__LOOP_CHEAP(name, row, type) MPS__LOOP(name, row, type)
-#undef MPS__VALUES_ANY
-#define MPS__VALUES_ANY(name, row, type, sums, maxima) MPS__VALUES(name, row, type, sums, maxima)
-#undef MPS__VALUES_BY
-#define MPS__VALUES_BY(name, row, range, type, sums, maxima) \
-    MPS__VALUES(name, row, type, sums, maxima)
 
 #endif

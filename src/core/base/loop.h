@@ -58,30 +58,8 @@ void mps__values_reduce_async(struct mps__device *d, const mps__values *values, 
 int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t n,
                        const void *fields);
 
-/* Define the mps__loop `name` from a row function
- *   MPS_ROW void row(const int dim, const type *fields, int64_t i);
- * compiled for dim = 2 and 3, so that loops over dim unroll. The loop copies the fields, so that
- * they stay in registers. */
-#define MPS__LOOP(name, row, type)                                                        \
-    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
-    {                                                                                     \
-        const type given_ = *(const type *)fields_;                                       \
-        if (dim_ == 2)                                                                    \
-            for (int64_t i = begin; i < end; i++) row(2, &given_, i);                     \
-        else                                                                              \
-            for (int64_t i = begin; i < end; i++) row(3, &given_, i);                     \
-    }                                                                                     \
-    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
-
-/* MPS__LOOP() of rows that do not depend on the dimension: compiled once. */
-#define MPS__LOOP_ANY(name, row, type)                                                    \
-    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
-    {                                                                                     \
-        const type given_ = *(const type *)fields_;                                       \
-        (void)dim_;                                                                       \
-        for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);              \
-    }                                                                                     \
-    static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
+/* The macros below define loops of three kinds: rows, reductions, groups. Each kind has one
+ * definition for the host here, `_OF`, and one for devices (src/device/kernels.h). */
 
 /* The iterations of the next loop are independent: its arrays are identical or disjoint. */
 #if defined(__clang__)
@@ -99,16 +77,98 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
 #define MPS__ROLLED
 #endif
 
-/* MPS__LOOP() of very cheap rows that do not depend on the dimension: a vector loop on the host. */
-#define MPS__LOOP_CHEAP(name, row, type)                                                  \
+/* ---- rows ---- */
+
+/* Define the mps__loop `name` from a row function
+ *   MPS_ROW void row(const int dim, const type *fields, int64_t i);
+ * compiled for dim = 2 and 3, so that loops over dim unroll. The loop copies the fields, so that
+ * they stay in registers. */
+#define MPS__LOOP(name, row, type)                                                        \
+    MPS__LOOP_OF(name, row, type,                                                         \
+                 if (dim_ == 2) for (int64_t i = begin; i < end; i++) row(2, &given_, i); \
+                 else for (int64_t i = begin; i < end; i++) row(3, &given_, i);)
+
+/* MPS__LOOP() of rows that do not depend on the dimension: compiled once. */
+#define MPS__LOOP_ANY(name, row, type) \
+    MPS__LOOP_OF(name, row, type,      \
+                 for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);)
+
+/* MPS__LOOP_ANY() of very cheap rows: a vector loop on the host. */
+#define MPS__LOOP_CHEAP(name, row, type)                                \
+    MPS__LOOP_OF(name, row, type,                                       \
+                 MPS__INDEPENDENT for (int64_t i = begin; i < end; i++) \
+                     row(MPS__ANY_DIM, &given_, i);)
+
+/* `host`: the loop, with dim_, given_, begin and end. A kernel runs `row`. */
+#define MPS__LOOP_OF(name, row, type, host)                                               \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
     {                                                                                     \
         const type given_ = *(const type *)fields_;                                       \
         (void)dim_;                                                                       \
-        MPS__INDEPENDENT                                                                  \
-        for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);              \
+        host                                                                              \
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
+
+/* ---- reductions ---- */
+
+/* Define the mps__values `name` from a row function
+ *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
+ * which sets values[0..sums-1] to the terms of the row, each 0 on entry, and updates the maxima
+ * after them. */
+#define MPS__VALUES(name, row, type, sums, maxima) \
+    MPS__VALUES_OF(name, row, type, sums, maxima,  \
+                   MPS__TERMS(sums, maxima,        \
+                              (dim_ == 2 ? row(2, &given_, i, own_) : row(3, &given_, i, own_))))
+
+/* MPS__VALUES() of rows that do not depend on the dimension. */
+#define MPS__VALUES_ANY(name, row, type, sums, maxima) \
+    MPS__VALUES_OF(name, row, type, sums, maxima,      \
+                   MPS__TERMS(sums, maxima, row(MPS__ANY_DIM, &given_, i, own_)))
+
+/* MPS__VALUES_ANY() with a host function for a range, which has the same terms:
+ *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums,
+ *                     double *maxima); */
+#define MPS__VALUES_BY(name, row, range, type, sums, maxima) \
+    MPS__VALUES_OF(name, row, type, sums, maxima, (void)row; \
+                   range(&given_, begin, end, sum_, maximum_);)
+
+/* Define the mps__values `name` that finds the first row that satisfies a test
+ *   MPS_ROW bool is_it(const type *fields, int64_t i);
+ * The lowest row has the largest negative index; doubles are exact to 2^53. */
+#define MPS__FIRST(name, is_it, type)                                                          \
+    MPS_ROW void name##_row(const int dim_, const type *fields_, int64_t i_, double *largest_) \
+    {                                                                                          \
+        (void)dim_;                                                                            \
+        if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_;            \
+    }                                                                                          \
+    MPS__VALUES_ANY(name, name##_row, type, 0, 1)
+
+/* Loop of a reduction on the host; `work` is the code of a row. */
+#define MPS__TERMS(sums, maxima, work)                          \
+    double own_[(sums) + (maxima)];                             \
+    mps__terms terms_;                                          \
+    mps__terms_begin(&terms_, sum_, sums);                      \
+    memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double)); \
+    for (int64_t i = begin; i < end; i++) {                     \
+        memset(own_, 0, (sums) * sizeof(double));               \
+        work;                                                   \
+        if ((sums) > 0) mps__terms_add(&terms_, own_);          \
+    }                                                           \
+    mps__terms_end(&terms_);                                    \
+    memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));
+
+/* `host`: as in MPS__LOOP_OF(). */
+#define MPS__VALUES_OF(name, row, type, sums, maxima, host)                               \
+    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
+                           mps_exact *sum_, double *maximum_)                             \
+    {                                                                                     \
+        const type given_ = *(const type *)fields_;                                       \
+        (void)dim_;                                                                       \
+        host                                                                              \
+    }                                                                                     \
+    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
+
+/* ---- groups ---- */
 
 /* Define the mps__loop `name` for the MPS__TOGETHER threads of one group of a device:
  *   static void together(const type *fields, int64_t lane, bool any);
@@ -123,62 +183,5 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
         if (begin == 0) whole((const type *)fields_);                                     \
     }                                                                                     \
     static const mps__loop name = {#name, sizeof(type), name##_run, MPS_FILE};
-
-/* Define the mps__values `name` from a row function
- *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
- * which sets values[0..sums-1] to the terms of the row, each 0 on entry, and updates the maxima
- * after them. */
-#define MPS__VALUES(name, row, type, sums, maxima)                                                \
-    MPS__VALUES_OF(name, (dim_ == 2 ? row(2, &given_, i, own_) : row(3, &given_, i, own_)), type, \
-                   sums, maxima)
-
-/* MPS__VALUES() of rows that do not depend on the dimension. */
-#define MPS__VALUES_ANY(name, row, type, sums, maxima) \
-    MPS__VALUES_OF(name, row(MPS__ANY_DIM, &given_, i, own_), type, sums, maxima)
-
-/* Implementation of both; `work` is the code of a row, with dim_, given_, i and own_. */
-#define MPS__VALUES_OF(name, work, type, sums, maxima)                                    \
-    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
-                           mps_exact *sum_, double *maximum_)                             \
-    {                                                                                     \
-        const type given_ = *(const type *)fields_;                                       \
-        double own_[(sums) + (maxima)];                                                   \
-        mps__terms terms_;                                                                \
-        (void)dim_;                                                                       \
-        mps__terms_begin(&terms_, sum_, sums);                                            \
-        memcpy(own_ + (sums), maximum_, (maxima) * sizeof(double));                       \
-        for (int64_t i = begin; i < end; i++) {                                           \
-            memset(own_, 0, (sums) * sizeof(double));                                     \
-            work;                                                                         \
-            if ((sums) > 0) mps__terms_add(&terms_, own_);                                \
-        }                                                                                 \
-        mps__terms_end(&terms_);                                                          \
-        memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));                       \
-    }                                                                                     \
-    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
-
-/* MPS__VALUES() with a host function for a range, which has the same terms:
- *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums,
- *                     double *maxima); */
-#define MPS__VALUES_BY(name, row, range, type, sums, maxima)                              \
-    static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
-                           mps_exact *sum_, double *maximum_)                             \
-    {                                                                                     \
-        const type given_ = *(const type *)fields_;                                       \
-        (void)dim_, (void)row;                                                            \
-        range(&given_, begin, end, sum_, maximum_);                                       \
-    }                                                                                     \
-    static const mps__values name = {#name, sizeof(type), sums, maxima, name##_run, MPS_FILE};
-
-/* Define the mps__values `name` that finds the first row that satisfies a test
- *   MPS_ROW bool is_it(const type *fields, int64_t i);
- * The lowest row has the largest negative index; doubles are exact to 2^53. */
-#define MPS__FIRST(name, is_it, type)                                                          \
-    MPS_ROW void name##_row(const int dim_, const type *fields_, int64_t i_, double *largest_) \
-    {                                                                                          \
-        (void)dim_;                                                                            \
-        if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_;            \
-    }                                                                                          \
-    MPS__VALUES_ANY(name, name##_row, type, 0, 1)
 
 #endif

@@ -130,7 +130,7 @@ void mps__step_crossing_end(mps_stage *s)
         ask_speeds(s, 5 * q->w->setup.velocity_scale);
         mps__runner_flush(&q->w->runner);
     }
-    q->info.crossing_time = crossing_time(q->w, sqrt(fmax(0, q->speeds[ANY])),
+    q->next.crossing_time = crossing_time(q->w, sqrt(fmax(0, q->speeds[ANY])),
                                           sqrt(fmax(0, q->speeds[PIECE])), s->view->dt);
 }
 

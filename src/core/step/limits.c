@@ -118,21 +118,23 @@ static void check_fixed(mps__world *w, double dt)
              w->state.t, dt, known);
 }
 
-mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, double dt_max,
-                                 double *planned, const char **name)
+mps_status mps__step_limit(mps__step *q, double dt_max)
 {
+    mps__world *w = q->w;
+    mps_view *v = &q->view;
     const mps_time_control *c = &w->setup.control;
     const bool own = c->dt <= 0 && c->dt_max > 0 && c->dt_max < dt_max;
     const double longest = own ? c->dt_max : dt_max;
     limit l = {c->dt > 0 ? c->dt : INFINITY, "fixed", "", "", 0};
     v->dt = w->state.dt_previous;
-    if (c->dt <= 0) MPS__TRY(choose(w, s, v, longest, &l));
+    if (c->dt <= 0) MPS__TRY(choose(w, &q->stage, v, longest, &l));
     const double step = fmin(l.dt, longest);
-    *planned = l.dt <= longest ? l.dt : 0;
+    /* a step shortened by the caller does not limit the growth of the next */
+    if (l.dt <= longest) q->next.dt_previous = l.dt;
     const double steps = ceil(dt_max / step * (1 - 1e-6));
     v->dt = w->ending && steps <= SHARED_STEPS ? dt_max / steps : step;
     if (c->dt > 0) check_fixed(w, v->dt);
-    *name = v->dt == l.dt ? l.name : own && v->dt == longest ? "dt_max" : "caller";
+    q->info.limit = v->dt == l.dt ? l.name : own && v->dt == longest ? "dt_max" : "caller";
     if (!(w->state.t + v->dt > w->state.t))
         return mps__fail(w->context, MPS_E_DIVERGED,
                          "the time step is %g s, too short to change the time, %g s", v->dt,

@@ -98,23 +98,25 @@ MPS_SUMS(raise_ways, raise_way, ways)
 
 /* Fluid that moves farther in a step than the depth of the solids' layers could pass through them
  * undetected. */
-mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
-                                  double dt)
+mps_status mps__step_check_moves(mps__step *q, const double *before)
 {
-    const ways f = {
-        .before = before, .x = mps__seen(w, MPS__FIELD_POSITION), .dt = dt, .limit = limit_of(w)};
+    mps__world *w = q->w;
+    const ways f = {.before = before,
+                    .x = mps__seen(w, MPS__FIELD_POSITION),
+                    .dt = q->view.dt,
+                    .limit = limit_of(w)};
     double most[3] = {0, 0, -INFINITY};
     mps_view v;
     if (!mps__world_may_jump(w)) return MPS_OK;
-    view_of(w, next, &v);
+    view_of(w, &q->pose, &v);
     mps__runner_max(&w->runner, &v, 3, &raise_ways, &f, most);
     if (most[0] > 0 && !isinf(most[2])) return jumped(w, &v, &f, (int64_t)-most[2]);
-    if (w->setup.control.dt > 0 && most[1] > w->setup.dp && !w->state.moves_told) {
-        w->state.moves_told = true;
+    if (w->setup.control.dt > 0 && most[1] > w->setup.dp && !q->next.moves_told) {
+        q->next.moves_told = true;
         mps__log(w->context, MPS_LOG_WARNING,
                  "t = %.9g s: in a fixed step of %g s fluid moves up to %g m, more than a spacing "
                  "of %g m: the step is too long for its speed",
-                 w->state.t, dt, most[1], w->setup.dp);
+                 w->state.t, f.dt, most[1], w->setup.dp);
     }
     return MPS_OK;
 }
@@ -205,24 +207,28 @@ static void take_result(void *to, const double *most)
     *(mps__outcome *)to = (mps__outcome){most[0] > 0 ? most[0] : 0, most[1]};
 }
 
-void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose, mps__outcome *v)
+void mps__step_ask_result(mps__step *q)
 {
+    mps__world *w = q->w;
     const result f = {.x = mps__seen(w, MPS__FIELD_POSITION),
                       .u = mps__seen(w, MPS__FIELD_VELOCITY),
                       .p = mps__seen(w, MPS__FIELD_PRESSURE),
                       .fastest = fmin(w->setup.speed_limit, DBL_MAX),
-                      .carry = mps__motion_carry(&w->motion, pose)};
-    *v = (mps__outcome){0, -INFINITY}; /* if a device fails */
-    mps__runner_max_deferred(&w->runner, s, 2, &raise_results, &f, (mps__then){take_result, v});
+                      .carry = mps__motion_carry(&w->motion, &q->pose)};
+    q->outcome = (mps__outcome){0, -INFINITY}; /* if a device fails */
+    mps__runner_max_deferred(&w->runner, &q->view, 2, &raise_results, &f,
+                             (mps__then){take_result, &q->outcome});
 }
 
 /* NaN and speeds beyond every physical range stop the run, with the particle and its position. */
-mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
-                                   const mps__outcome *v, mps_step_info *info)
+mps_status mps__step_check_result(mps__step *q, bool has_moved)
 {
+    mps__world *w = q->w;
+    const mps_view *s = &q->view;
+    const mps__outcome *v = &q->outcome;
     const mps__particles *all = &w->particles;
-    info->max_speed = v->fastest;
-    info->cfl = v->fastest * s->dt / s->dp;
+    q->info.max_speed = v->fastest;
+    q->info.cfl = v->fastest * s->dt / s->dp;
     if (isinf(v->failed)) return MPS_OK;
     const int64_t worst = place_of(w, (int64_t)-v->failed);
     if (worst < 0) return mps__ranks_text(&w->ranks, MPS_E_DIVERGED);

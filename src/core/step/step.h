@@ -10,37 +10,9 @@
 
 /* One step, undone if it fails. step.c */
 mps_status mps__world_step(mps__world *w, double dt_max);
-/* Result of a step: velocities relative to the tank in a pose, pressures and positions. */
-typedef struct mps__outcome {
-    double fastest; /* speed [m/s] */
-    /* negative of the least id of a particle that is not finite or too fast; -INFINITY: none */
-    double failed;
-} mps__outcome;
-/* Deferred: valid after mps__runner_flush(). moves.c */
-void mps__world_ask_result(mps__world *w, const mps_view *s, const mps__pose *pose,
-                           mps__outcome *v);
-/* Fail if a value is not finite or too fast, with the particle and its position before it moved, if
- * it `has_moved`. Sets the largest speed of `info`. moves.c */
-mps_status mps__world_check_result(mps__world *w, const mps_view *s, bool has_moved,
-                                   const mps__outcome *v, mps_step_info *info);
-/* Whether fluid may move too far in a step; check for fluid that passes a wall in a step of dt to
- * the pose `next`. `before`: the positions before the step, in the memory space of the loops.
- * moves.c */
-bool mps__world_may_jump(const mps__world *w);
-mps_status mps__world_check_moves(mps__world *w, const mps__pose *next, const double *before,
-                                  double dt);
-/* The length of the step, in s->dt; `planned` is that chosen by the limits, 0 if the caller
- * shortened it. They also differ if the last steps of a run share the remaining time equally, so
- * that no step is tiny: pressures of an accelerated tank jump with dt, by half of its change. A
- * remainder within rounding is ignored. limits.c */
-mps_status mps__world_limit_step(mps__world *w, mps_stage *s, mps_view *v, double dt_max,
-                                 double *planned, const char **name);
 /* Fail with `refusal` if a motion moves the tank farther than MPS__FARTHEST. moves.c */
 mps_status mps__world_check_pose(const mps__world *w, const mps__motion *m, const mps__pose *pose,
                                  mps_status refusal);
-/* Largest displacement [m] of the walls from the present pose to another, and of the fluid relative
- * to them if it keeps its velocity for dt. Deferred: valid after mps__runner_flush(). moves.c */
-void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way);
 
 /* ---- a step in progress ---- */
 
@@ -53,40 +25,46 @@ typedef struct mps__mass_columns {
     int32_t count, degree[6];
 } mps__mass_columns;
 
-/* State of one step; committed to the world only if it succeeds. */
+/* Result of a step: velocities relative to the tank, pressures and positions. */
+typedef struct mps__outcome {
+    double fastest; /* speed [m/s] */
+    /* negative of the least id of a particle that is not finite or too fast; -INFINITY: none */
+    double failed;
+} mps__outcome;
+
 typedef struct mps__step {
     mps__world *w;
+    /* What a successful step hands over: it replaces the state of the world. Until then
+     * w->state and w->motion.now are those at the beginning. */
+    mps__state next;
+    mps__pose pose; /* of the tank at the end of the step */
+    mps_step_info info;
+    mps__load load;
+    mps__body_state body; /* of the body that carries the tank, at the end */
+    mps__next_flags next_flags;
+    /* work of the step */
     mps_stage stage;
     mps_view view; /* of the stage */
     mps_flux flux; /* flux of the view from MPS_FORCE on */
     mps__ppe_terms terms;
-    mps__pose pose; /* of the tank at the end of the step */
-    mps_step_info info;
-    mps__budget budget;
-    double momentum[3];   /* of the prediction */
-    mps__bulk bulk;       /* for the velocities at the last entry in the budget */
-    mps__bulk last;       /* at the end */
-    mps__outcome outcome; /* at the end */
-    double speeds[2];     /* squares, for the crossing time; */
-    bool nearly;          /* search only pieces nearly as fast as the previous one */
-    double next_flags[MPS__NEXT_FLAGS];
+    double momentum[3];    /* of the prediction */
+    mps__bulk bulk;        /* for the velocities at the last entry in the budget */
+    mps__outcome outcome;  /* at the end */
+    double speeds[2];      /* squares, for the crossing time */
+    bool nearly;           /* search only pieces nearly as fast as the previous one */
     double body_work;      /* of solids that models move */
     double lift;           /* potential energy lost by displacements */
     mps__push before_line; /* values before the verbs of `line` in the present hook */
     int32_t line;          /* budget line of the last call: MPS__LINE_... */
     int32_t line_hook;     /* hook of that call */
-    mps__reaction reaction[1 + MPS__PARTS_MAX];
-    mps__jump jump;
-    double deviation;     /* mean volume deviation */
-    double setup_seconds; /* of the solver */
-    double spread;        /* time that a gain below 1 spreads pressures over [s] */
+    double setup_seconds;  /* of the solver */
     bool not_converged;
     double momentum_before[MPS__MOMENTUM]; /* of the liquid at the beginning */
-    mps__load load;
     mps__mass_columns columns;
-    mps__body_state body; /* of the body that carries the tank, at the end */
-    double felt[6];       /* load of the liquid that it has received in this step */
+    double felt[6];       /* load of the liquid that the body has received in this step */
     const double *before; /* positions before particles moved; NULL: they have not moved yet */
+    bool kept;            /* the fields have backup copies */
+    double begin;         /* by mps__clock() [s] */
 } mps__step;
 
 /* ---- passes.c: all passes, in their order within a hook ---- */
@@ -100,10 +78,38 @@ static inline mps__step *mps__step_of(const mps_stage *s)
     return s->self;
 }
 
+/* ---- the transaction around a step: transaction.c ---- */
+
+/* Begin the step; a failure leaves nothing to undo. */
+mps_status mps__step_begin(mps__step *q);
+/* Back up the state, after the particles were sorted: from here on all changes can be undone. */
+mps_status mps__step_keep(mps__step *q);
+/* Commit the step, or undo it if `status` is negative. @return the status of the step */
+mps_status mps__step_end(mps__step *q, mps_status status);
+
+/* ---- limits and checks: limits.c, moves.c ---- */
+
+/* Set the length of the step, q->view.dt. If the last steps of a run share the remaining time
+ * equally, it is less than the limits allow, so that no step is tiny: pressures of an accelerated
+ * tank jump with dt, by half of its change. A remainder within rounding is ignored. */
+mps_status mps__step_limit(mps__step *q, double dt_max);
+/* Largest displacement [m] of the walls from the present pose to another, and of the fluid relative
+ * to them if it keeps its velocity for dt. Deferred: valid after mps__runner_flush(). */
+void mps__world_way_of_walls(mps__world *w, const mps__pose *pose, double dt, double *way);
+/* Set q->outcome. Deferred: valid after mps__runner_flush(). */
+void mps__step_ask_result(mps__step *q);
+/* Fail if a value is not finite or too fast, with the particle and its position before it moved, if
+ * it `has_moved`. Sets the largest speed of q->info. */
+mps_status mps__step_check_result(mps__step *q, bool has_moved);
+/* Whether fluid may move too far in a step; check for fluid that passes a wall. `before`: the
+ * positions before the step, in the memory space of the loops. */
+bool mps__world_may_jump(const mps__world *w);
+mps_status mps__step_check_moves(mps__step *q, const double *before);
+
 /* ---- the stage: step_stage.c ---- */
 
-/* Set up the stage and the arrays of the library's channels. */
-void mps__step_open(mps__step *q);
+/* Set up the arrays of the step, on a device too, then the stage and its view. */
+mps_status mps__step_open(mps__step *q);
 /* Run the calls of a hook. */
 mps_status mps__step_run(mps__step *q, int32_t hook);
 /* Number density and asymmetry at the present positions, and the volume deviation; first values of

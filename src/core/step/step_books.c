@@ -48,7 +48,7 @@ static mps__push so_far(const mps__step *q)
 void mps__step_book_line(mps__step *q, bool after)
 {
     const bool force = q->stage.hook == MPS_FORCE;
-    mps__budget *b = &q->budget;
+    mps__budget *b = &q->next.budget;
     mps_momentum *m = &b->momentum;
     const bool friction = q->line == MPS__LINE_FRICTION;
     if (!force && q->stage.hook != MPS_VELOCITY) return;
@@ -77,15 +77,15 @@ static void add_forces(void *step, const double *sums)
 {
     mps__step *q = step;
     const mps_view *s = &q->view;
-    mps_momentum *m = &q->budget.momentum;
+    mps_momentum *m = &q->next.budget.momentum;
     mps__push push;
     mps__budget_take_push(q->w, sums, &push);
-    q->budget.viscous -= push.energy;
+    q->next.budget.viscous -= push.energy;
     for (int d = 0; d < s->dim; d++) {
         const double weight = push.mass * s->dt * s->g[d];
         m->force[d] += push.impulse[d];
         m->gravity[d] += weight;
-        q->momentum[d] = q->budget.last.momentum[d] + push.impulse[d] + weight;
+        q->momentum[d] = q->next.budget.last.momentum[d] + push.impulse[d] + weight;
     }
 }
 
@@ -111,15 +111,15 @@ const mps__pass mps__pass_book_forces = {.name = "book_forces",
 static void add_wall_work(void *step, const double *sums)
 {
     mps__step *q = step;
-    q->budget.wall_work_momentum += q->body_work + sums[0];
+    q->next.budget.wall_work_momentum += q->body_work + sums[0];
 }
 
 static void add_wall_force(void *step, const double *sums)
 {
     mps__step *q = step;
     const int32_t dim = q->view.dim;
-    q->budget.wall_work_probes += q->body_work + sums[dim];
-    for (int d = 0; d < dim; d++) q->budget.momentum.walls[d] += q->view.dt * sums[d];
+    q->next.budget.wall_work_probes += q->body_work + sums[dim];
+    for (int d = 0; d < dim; d++) q->next.budget.momentum.walls[d] += q->view.dt * sums[d];
 }
 
 static void add_pressure(void *step, const double *sums)
@@ -127,7 +127,7 @@ static void add_pressure(void *step, const double *sums)
     mps__step *q = step;
     mps__budget_take_flow(q->w, sums, &q->bulk);
     for (int d = 0; d < q->view.dim; d++)
-        q->budget.momentum.pressure[d] += q->bulk.momentum[d] - q->momentum[d];
+        q->next.budget.momentum.pressure[d] += q->bulk.momentum[d] - q->momentum[d];
 }
 
 static mps_status book_pressure(mps_stage *s)
@@ -162,9 +162,9 @@ static void add_collisions(void *step, const double *sums)
     mps__step *q = step;
     mps__bulk after;
     mps__budget_take_flow(q->w, sums, &after);
-    q->budget.collision += q->bulk.kinetic - after.kinetic;
+    q->next.budget.collision += q->bulk.kinetic - after.kinetic;
     for (int d = 0; d < q->w->setup.dim; d++)
-        q->budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
+        q->next.budget.momentum.collision[d] += after.momentum[d] - q->bulk.momentum[d];
     q->bulk = after;
 }
 
@@ -198,9 +198,9 @@ static void add_shift(void *step, const double *sums)
     mps__step *q = step;
     mps__bulk after;
     mps__budget_take_flow(q->w, sums, &after);
-    q->budget.shift += q->bulk.kinetic - after.kinetic + q->lift;
+    q->next.budget.shift += q->bulk.kinetic - after.kinetic + q->lift;
     for (int d = 0; d < q->w->setup.dim; d++)
-        q->budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
+        q->next.budget.momentum.shift[d] += after.momentum[d] - q->bulk.momentum[d];
 }
 
 static mps_status book_shift(mps_stage *s)
@@ -248,10 +248,10 @@ static mps_status stop_at_plates(mps_stage *s)
     mps__budget_sum(w, &moved);
     stop_drops(s, w);
     mps__budget_sum(w, &stopped);
-    q->budget.collision += (moved.kinetic - stopped.kinetic) +
-                           (moved.potential - stopped.potential);
+    q->next.budget.collision += (moved.kinetic - stopped.kinetic) +
+                                (moved.potential - stopped.potential);
     for (int d = 0; d < w->setup.dim; d++)
-        q->budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
+        q->next.budget.momentum.collision[d] += stopped.momentum[d] - moved.momentum[d];
     return MPS_OK;
 }
 

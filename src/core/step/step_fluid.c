@@ -193,7 +193,7 @@ const mps__pass mps__pass_move = {.name = "move",
 static mps_status check_result(mps__step *q)
 {
     MPS__TRY(mps__runner_check_reactions(&q->w->runner, q->view.t));
-    return mps__world_check_result(q->w, &q->view, true, &q->outcome, &q->info);
+    return mps__step_check_result(q, true);
 }
 
 /* On a device the result is known at the end of the step, unless displacements of the fluid are
@@ -201,11 +201,11 @@ static mps_status check_result(mps__step *q)
 static mps_status check(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__world_ask_result(q->w, &q->view, &q->pose, &q->outcome);
+    mps__step_ask_result(q);
     if (mps__world_may_jump(q->w)) mps__runner_flush(&q->w->runner);
     if (mps__world_may_jump(q->w) || !mps__device_of(&q->w->pool.parallel))
         MPS__TRY(check_result(q));
-    return mps__world_check_moves(q->w, &q->pose, s->data[3], q->view.dt);
+    return mps__step_check_moves(q, s->data[3]);
 }
 
 static const mps_use check_uses[] = {{"velocity", MPS_USE_READ},
@@ -273,14 +273,15 @@ static void take_counts(void *step, const double *counts)
 static void take_last(void *step, const double *sums)
 {
     mps__step *q = step;
-    mps__budget_take(q->w, sums, &q->last);
+    mps__budget_take(q->w, sums, &q->next.budget.last);
 }
 
 /* Mean volume deviation of inner fluid; 0 if there is none. */
 static void take_deviation(void *step, const double *sums)
 {
-    mps__step *q = step;
-    q->deviation = sums[1] > 0 ? sums[0] / sums[1] : 0;
+    mps__budget *b = &((mps__step *)step)->next.budget;
+    b->deviation = sums[1] > 0 ? sums[0] / sums[1] : 0;
+    if (!b->started) b->deviation_start = b->deviation;
 }
 
 static mps_status keep(mps_stage *s)
@@ -297,7 +298,7 @@ static mps_status keep(mps_stage *s)
                              (mps__then){take_counts, q});
     mps__budget_deviation(w, s->data[3], (mps__then){take_deviation, q});
     mps__budget_deferred(w, (mps__then){take_last, q});
-    if (on_device && !w->work.bodies) mps__world_request_flags(w, &q->pose, q->next_flags);
+    if (on_device && !w->work.bodies) mps__world_request_flags(w, &q->pose, &q->next_flags);
     mps__runner_flush(&w->runner);
     MPS__TRY(mps__device_status(&w->runner.memory.device));
     if (on_device) MPS__TRY(check_result(q));

@@ -17,10 +17,10 @@ static void spread_gain(mps__step *q)
 {
     double *gain = &q->terms.equation.gain;
     const double dt = q->view.dt, wanted = dt * (1 - *gain) / *gain;
-    q->spread = q->w->state.spread > 0
-                    ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
-                    : wanted;
-    *gain = dt / (dt + q->spread);
+    q->next.spread = q->w->state.spread > 0
+                         ? q->w->state.spread + SPREAD_SHARE * (wanted - q->w->state.spread)
+                         : wanted;
+    *gain = dt / (dt + q->next.spread);
 }
 
 typedef struct law_fields {
@@ -64,8 +64,8 @@ static void note_level(mps__step *q)
 {
     mps__world *w = q->w;
     q->stage.level_free = w->ppe.level_free;
-    if (!w->ppe.level_free || w->state.level_told) return;
-    w->state.level_told = true;
+    if (!w->ppe.level_free || q->next.level_told) return;
+    q->next.level_told = true;
     mps__log(w->context, MPS_LOG_INFO,
              "t = %.9g s: no surface, fixed pressure or compressible phase gives the pressures a "
              "level; their mean is zero",
@@ -167,29 +167,36 @@ static mps_status log_failure(mps_stage *s, mps_status status)
     if (status == MPS_E_SOLVER) {
         const mps_view *device_view = w->ppe.device ? mps__runner_begin_serial(s) : NULL;
         mps__memory_sync_fields(&w->runner.memory);
-        mps__world_ask_result(w, &q->view, &q->pose, &q->outcome);
+        mps__step_ask_result(q);
         mps__runner_flush(&w->runner);
         mps_status found = mps__runner_check_reactions(&w->runner, q->view.t);
-        if (found == MPS_OK)
-            found = mps__world_check_result(w, &q->view, false, &q->outcome, &q->info);
+        if (found == MPS_OK) found = mps__step_check_result(q, false);
         if (device_view) mps__runner_end_serial(s, device_view);
         MPS__TRY(found);
     }
     return mps__fail(w->context, status, "t = %.9g s: %.400s", q->view.t, w->context->error);
 }
 
-/* Solve the equation w->ppe as it is; its terms are in the same memory space. */
-static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
+/* Solve the equation w->ppe in its memory space. On a device the solver first tests whether it can
+ * be solved: solvers.hint.refused. */
+static mps_status solve_equation(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
     mps__world *w = q->w;
+    mps__memory *t = &w->runner.memory;
     mps_ppe_result result = {.struct_size = sizeof result};
+    mps__ppe_terms terms = q->terms;
     mps_status status = MPS_OK;
+    note_level(q);
+    terms.flux = &s->view->flux;
+    terms.value = mps__memory_array(t, MPS__PRESSURE_VALUE, t->space);
+    terms.condition = mps__memory_array(t, MPS__PRESSURE_CONDITION, t->space);
     w->bounds.active = mps__seen(w, MPS__FIELD_HELD);
     w->bounds.solves = 0;
+    w->solvers.hint.refused = false;
     if (mps__ppe_rows(&w->ppe) > 0)
-        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, terms, &result);
-    if (w->solvers.hint.refused) return MPS_OK; /* not solved yet */
+        status = mps__bounds_solve(&w->bounds, &w->solvers, &w->ppe, s->view, &terms, &result);
+    if (w->solvers.hint.refused) return MPS_OK;
     /* if another rank has failed, report its reason, not the effect of its last values on the
      * solution */
     if (status == MPS_E_SOLVER) MPS__TRY(mps__ranks_status(&w->ranks));
@@ -209,73 +216,28 @@ static mps_status solve_equation(mps_stage *s, mps__ppe_terms *terms)
                : MPS_OK;
 }
 
-enum { LEAST, CONDITIONS };
-static const mps_use solve_uses[] = {[LEAST] = {"pressure_value", MPS_USE_READ},
-                                     [CONDITIONS] = {"pressure_condition", MPS_USE_CHANGE},
-                                     {"unknown_numbers", MPS_USE_CHANGE},
-                                     {"unknown_places", MPS_USE_READ}};
-
-/* Whether the equation is solved in its memory space. The added mass needs it on the host. */
-static bool stays(const mps__step *q)
-{
-    const mps__world *w = q->w;
-    return !w->solvers.device || (w->ppe.device && q->load.what != MPS_LOAD_MASS &&
-                                  mps__solvers_on_device(&w->solvers, &w->ppe.problem));
-}
-
-/* Copy the equation to the host, solve it, and copy pressures and conditions back. */
+/* Bring the equation of a device to the host, make it solvable if a component lacks a pressure
+ * datum, solve it, and bring pressures and conditions back. */
 static mps_status solve_on_host(mps_stage *s)
 {
-    mps__step *q = mps__step_of(s);
-    mps__world *w = q->w;
+    static const int32_t read[] = {MPS__PRESSURE_VALUE, MPS__PRESSURE_CONDITION,
+                                   MPS__PRESSURE_DENSITY};
+    mps__world *w = mps__step_of(s)->w;
     mps__memory *t = &w->runner.memory;
     const mps_view *device_view = mps__runner_begin_serial(s);
-    mps_status status = w->ppe.device ? mps__ppe_to_host(&w->ppe) : MPS_OK;
-    mps__memory_sync(t, MPS__PRESSURE_VALUE, MPS__ON_HOST);
-    mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
-    mps__memory_sync(t, MPS__PRESSURE_DENSITY, MPS__ON_HOST);
+    mps_status status = mps__ppe_to_host(&w->ppe);
+    if (status == MPS_OK && w->ppe.lacking) status = mps__ppe_close(&w->ppe, s->view);
+    for (int k = 0; k < 3; k++) mps__memory_sync(t, read[k], MPS__ON_HOST);
     if (status == MPS_OK) status = mps__device_status(&t->device);
-    if (status == MPS_OK) status = solve_equation(s, &q->terms);
+    if (status == MPS_OK) status = solve_equation(s);
     mps__memory_written(t, MPS__PRESSURE_CONDITION, MPS__ON_HOST);
     mps__memory_sync(t, MPS__PRESSURE_CONDITION, MPS__ON_DEVICE);
     mps__runner_end_serial(s, device_view);
     return status == MPS_OK ? mps__ppe_to_device(&w->ppe) : status;
 }
 
-/* Components without a pressure datum: copy the equation to the host. */
-static mps_status close_levels(mps_stage *s)
-{
-    mps__ppe *e = &mps__step_of(s)->w->ppe;
-    const mps_view *device_view = mps__runner_begin_serial(s);
-    mps_status status = mps__ppe_to_host(e);
-    if (status == MPS_OK) status = mps__ppe_close(e, s->view);
-    mps__runner_end_serial(s, device_view);
-    return status;
-}
-
-/* On a device the solver tests for such components, before it begins. */
-static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
-{
-    mps__world *w = mps__step_of(s)->w;
-    /* on many ranks the solver on a device waits for each reduction, so the test is a separate
-     * one */
-    const bool joins = w->ppe.device && mps__ranks_many(&w->ranks);
-    note_level(mps__step_of(s));
-    if (joins) {
-        MPS__TRY(mps__levels_wait(&w->ppe));
-        if (!w->ppe.lacking) return solve_equation(s, terms);
-    } else {
-        const mps_status status = solve_equation(s, terms);
-        if (!w->solvers.hint.refused) return status;
-        w->solvers.hint.refused = false;
-    }
-    MPS__TRY(close_levels(s));
-    note_level(mps__step_of(s));
-    return solve_on_host(s);
-}
-
 /* Log this once, as it is so in each step. */
-static void log_apart(const mps__step *q)
+static void log_host(const mps__step *q)
 {
     mps__world *w = q->w;
     mps__memory *t = &w->runner.memory;
@@ -295,30 +257,45 @@ static void log_apart(const mps__step *q)
              t->device.ops.name, why);
 }
 
-/* Solve on the host an equation that was assembled on the device. */
-static mps_status solve_apart(mps_stage *s)
+/* Choose the memory space of the solution. On the host: for a solver without device loops, for the
+ * added mass, and if a component lacks a pressure datum. On one rank the solver tests the latter
+ * itself; on many it waits for each reduction anyway, so the test is a separate one. */
+static mps_status choose_space(const mps__step *q, bool *on_host)
 {
-    log_apart(mps__step_of(s));
-    mps__ppe *e = &mps__step_of(s)->w->ppe;
-    if (e->device) MPS__TRY(mps__levels_wait(e));
-    if (e->device && e->lacking) MPS__TRY(close_levels(s));
-    note_level(mps__step_of(s));
-    return solve_on_host(s);
+    mps__world *w = q->w;
+    *on_host = false;
+    if (!w->ppe.device) return MPS_OK;
+    if (q->load.what == MPS_LOAD_MASS || !mps__solvers_on_device(&w->solvers, &w->ppe.problem)) {
+        log_host(q);
+        *on_host = true;
+    } else if (!mps__ranks_many(&w->ranks)) {
+        return MPS_OK;
+    }
+    MPS__TRY(mps__levels_wait(&w->ppe));
+    *on_host = *on_host || w->ppe.lacking;
+    return MPS_OK;
 }
 
 static mps_status solve(mps_stage *s)
 {
     mps__step *q = mps__step_of(s);
-    mps__solvers *solvers = &q->w->solvers;
-    mps__ppe_terms terms = q->terms;
-    terms.flux = &s->view->flux;
-    terms.value = s->data[LEAST];
-    terms.condition = s->data[CONDITIONS];
-    solvers->device = mps__memory_device(&q->w->runner.memory);
-    const mps_status status = stays(q) ? solve_in_place(s, &terms) : solve_apart(s);
-    solvers->device = NULL;
+    mps__world *w = q->w;
+    bool on_host;
+    w->solvers.device = mps__memory_device(&w->runner.memory);
+    mps_status status = choose_space(q, &on_host);
+    if (status == MPS_OK && !on_host) {
+        status = solve_equation(s);
+        on_host = w->ppe.lacking = w->solvers.hint.refused;
+    }
+    if (status == MPS_OK && on_host) status = solve_on_host(s);
+    w->solvers.device = NULL;
     return status;
 }
+
+static const mps_use solve_uses[] = {{"pressure_value", MPS_USE_READ},
+                                     {"pressure_condition", MPS_USE_CHANGE},
+                                     {"unknown_numbers", MPS_USE_CHANGE},
+                                     {"unknown_places", MPS_USE_READ}};
 
 const mps__pass mps__pass_solve = {.name = "solve",
                                    .hook = MPS_SOURCE,

@@ -41,7 +41,7 @@ static void add_reactions(void *step, const double *given)
 {
     mps__step *q = step;
     mps__world *w = q->w;
-    mps__budget *b = &q->budget;
+    mps__budget *b = &q->next.budget;
     mps__reactions *r = &w->runner.reactions;
     double *const line[MPS__LINES] = {[MPS__LINE_VISCOUS] = &b->viscous,
                                       [MPS__LINE_COLLISION] = &b->collision,
@@ -50,7 +50,7 @@ static void add_reactions(void *step, const double *given)
     const int32_t places = MPS__REACTION_WHOLE + 1 + w->particles.parts;
     double found[PLACES];
     const double *value = given ? given : found;
-    memset(q->reaction, 0, sizeof q->reaction);
+    memset(q->next.reaction, 0, sizeof q->next.reaction);
     book_kinetic(r, line, b);
     if (!r->any) return;
     if (!given) find_values(w, places, found);
@@ -64,8 +64,8 @@ static void add_reactions(void *step, const double *given)
     }
     for (int32_t k = 0; k <= w->particles.parts; k++) {
         const double *sum = value + 6 * (MPS__REACTION_WHOLE + k);
-        to_tank(&w->motion.now, sum, q->reaction[k].force);
-        to_tank(&w->motion.now, sum + 3, q->reaction[k].moment);
+        to_tank(&w->motion.now, sum, q->next.reaction[k].force);
+        to_tank(&w->motion.now, sum + 3, q->next.reaction[k].moment);
     }
 }
 

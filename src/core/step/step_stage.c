@@ -89,7 +89,7 @@ static void before_call(void *step, const mps__call *call)
     note_line(step, call);
 }
 
-void mps__step_open(mps__step *q)
+static void open_stage(mps__step *q)
 {
     mps__world *w = q->w;
     q->stage = (mps_stage){.struct_size = sizeof q->stage, .step = w->state.step + 1};
@@ -103,6 +103,24 @@ void mps__step_open(mps__step *q)
     w->runner.before_call = before_call;
     memset(&w->runner.reactions, 0, sizeof w->runner.reactions);
     w->runner.gas = (mps__gas){0};
+}
+
+mps_status mps__step_open(mps__step *q)
+{
+    mps__world *w = q->w;
+    mps__runner *h = &w->runner;
+    MPS__TRY(mps__step_rotate_areas(w));
+    MPS__TRY(mps__step_place_solids(w));
+    /* a user's kernel function has no device code */
+    if (w->setup.kernel.id != MPS_KERNEL_CUSTOM) MPS__TRY(mps__memory_open(&h->memory, &h->plan));
+    MPS__TRY(mps__world_mirror_lists(w));
+    mps__step_find_areas(w);
+    open_stage(q);
+    mps__runner_log_spaces(h);
+    MPS__TRY(mps__world_stencil(w, MPS_NEAR, &q->view.near));
+    MPS__TRY(mps__world_stencil(w, MPS_FAR, &q->view.far));
+    mps__runner_book(h, MPS__OPEN);
+    return MPS_OK;
 }
 
 mps_status mps__step_run(mps__step *q, int32_t hook)

@@ -151,12 +151,13 @@ static void take_jump(void *step, const double *most)
     const mps__world *w = q->w;
     const double dt = q->view.dt,
                  change = w->state.dt_before > 0 ? 2 * dt / (dt + w->state.dt_before) : 1;
-    q->jump = (mps__jump){change * sqrt(fmax(most[0], 0)),
-                          w->state.jump.since < INT32_MAX ? w->state.jump.since + 1 : INT32_MAX};
-    if (q->jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp &&
-        q->jump.accel > 2 * w->state.jump.accel)
-        q->jump.since = 0;
-    q->stage.since_jump = q->jump.since;
+    q->next.jump = (mps__jump){change * sqrt(fmax(most[0], 0)), w->state.jump.since < INT32_MAX
+                                                                    ? w->state.jump.since + 1
+                                                                    : INT32_MAX};
+    if (q->next.jump.accel > 2 * w->setup.velocity_scale * w->setup.velocity_scale / w->setup.dp &&
+        q->next.jump.accel > 2 * w->state.jump.accel)
+        q->next.jump.since = 0;
+    q->stage.since_jump = q->next.jump.since;
 }
 
 void mps__step_note_jump(mps_stage *s, const double *acceleration)

@@ -251,7 +251,7 @@ static void take_flags(void *to, const double *most)
     memcpy(to, most, MPS__NEXT_FLAGS * sizeof *most);
 }
 
-void mps__world_request_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS])
+void mps__world_request_flags(mps__world *w, const mps__pose *pose, mps__next_flags *next)
 {
     flags f = {.searched = mps__seen_list(w, MPS__SEARCHED, w->lists.neighbours.searched),
                .u = mps__seen(w, MPS__FIELD_VELOCITY),
@@ -269,7 +269,9 @@ void mps__world_request_flags(mps__world *w, const mps__pose *pose, double most[
     mps__world_view(w, &v);
     mps__motion_view(&w->motion, pose, &v.tank);
     mps__runner_max_deferred(&w->runner, &v, MPS__NEXT_FLAGS, &raise_flags, &f,
-                             (mps__then){take_flags, most});
+                             (mps__then){take_flags, next->most});
+    next->flow = mps__particles_flow(&w->particles);
+    next->searches = w->lists.neighbours.searches;
 }
 
 /* ---- behind walls ---- */

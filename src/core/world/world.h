@@ -257,8 +257,8 @@ void mps__world_view(const mps__world *w, mps_view *v);
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Capacity for all particles in the arrays of a step that are not channels. */
 mps_status mps__world_reserve(mps__world *w);
-/* Request the next-step flags, with the tank at a pose; valid after mps__runner_flush(). lost.c */
-void mps__world_request_flags(mps__world *w, const mps__pose *pose, double most[MPS__NEXT_FLAGS]);
+/* Request the next-step flags, with the tank at a pose, at the end of a step; valid after mps__runner_flush(). lost.c */
+void mps__world_request_flags(mps__world *w, const mps__pose *pose, mps__next_flags *next);
 /* Remove fluid outside of the domain, or behind walls, by the policy. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
 mps_status mps__world_leave_tank(mps__world *w);
