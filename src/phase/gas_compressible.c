@@ -124,9 +124,17 @@ static int compress_gas(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_volumes},
-    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "source", .run = compress_gas}};
+static const mps_verb verbs[] = {{.hook = MPS_PREPARE,
+                                  .use_count = EXPECT_USES,
+                                  .uses = expect_uses,
+                                  .run = expect_volumes,
+                                  .device = 1},
+                                 {.hook = MPS_SOURCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "source",
+                                  .run = compress_gas,
+                                  .device = 1}};
 
 const mps_model_ops mps__gas_compressible = {
     .struct_size = sizeof(mps_model_ops),

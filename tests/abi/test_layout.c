@@ -74,12 +74,12 @@ AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8); AT
 AT(mps_launch, view, 32); AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56); AT(mps_launch, maxima, 60);
 AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, cancel, 80); AT(mps_launch, mask, 88);
 
-SIZE(mps_device_ops, 136);
+SIZE(mps_device_ops, 144);
 AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8); AT(mps_device_ops, self, 16);
 AT(mps_device_ops, alloc, 24); AT(mps_device_ops, free, 32); AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48);
 AT(mps_device_ops, clear, 56); AT(mps_device_ops, copy, 64); AT(mps_device_ops, launch, 72); AT(mps_device_ops, reduce, 80);
 AT(mps_device_ops, reduce_async, 88); AT(mps_device_ops, wait, 96); AT(mps_device_ops, failure, 104); AT(mps_device_ops, invalidated, 112);
-AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128);
+AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128); AT(mps_device_ops, plugin_loops, 136); AT(mps_device_ops, reserved, 140);
 
 SIZE(mps_device_info, 72);
 AT(mps_device_info, struct_size, 0); AT(mps_device_info, host_calls, 4); AT(mps_device_info, name, 8); AT(mps_device_info, launches, 16);
@@ -185,9 +185,9 @@ SIZE(mps_setting, 56);
 AT(mps_setting, key, 0); AT(mps_setting, unit, 8); AT(mps_setting, help, 16); AT(mps_setting, type, 24); AT(mps_setting, initial, 32);
 AT(mps_setting, min, 40); AT(mps_setting, max, 48);
 
-SIZE(mps_verb, 40);
+SIZE(mps_verb, 48);
 AT(mps_verb, hook, 0); AT(mps_verb, use_count, 4); AT(mps_verb, uses, 8); AT(mps_verb, after, 16); AT(mps_verb, before, 24);
-AT(mps_verb, run, 32);
+AT(mps_verb, run, 32); AT(mps_verb, device, 40); AT(mps_verb, reserved, 44);
 
 SIZE(mps_model_ops, 112);
 AT(mps_model_ops, struct_size, 0); AT(mps_model_ops, api, 4); AT(mps_model_ops, name, 8); AT(mps_model_ops, help, 16);

@@ -105,7 +105,7 @@ mps_setting._fields_ = [
 ]
 mps_verb._fields_ = [
     ("hook", c_int32), ("use_count", c_int32), ("uses", POINTER(mps_use)), ("after", c_char_p), ("before", c_char_p),
-    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))),
+    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))), ("device", c_int32), ("reserved", c_int32),
 ]
 mps_model_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
@@ -294,7 +294,7 @@ mps_device_ops._fields_ = [
     ("reduce", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
     ("reduce_async", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), c_void_p)), ("wait", CFUNCTYPE(c_int, c_void_p)),
     ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("invalidated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
-    ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)),
+    ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)), ("plugin_loops", c_int32), ("reserved", c_int32),
 ]
 mps_device_info._fields_ = [
     ("struct_size", c_uint32), ("host_calls", c_int32), ("name", c_char_p), ("launches", c_int64), ("waits", c_int64),
