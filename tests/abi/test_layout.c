@@ -286,29 +286,35 @@ AT(mps_ppe_ranks, ghosts, 16); AT(mps_ppe_ranks, rows, 24); AT(mps_ppe_ranks, fi
 AT(mps_ppe_ranks, owner, 48); AT(mps_ppe_ranks, halo, 56); AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, gather, 72);
 AT(mps_ppe_ranks, connect, 80); AT(mps_ppe_ranks, disconnect, 88); AT(mps_ppe_ranks, exchange, 96); AT(mps_ppe_ranks, host, 104);
 
-SIZE(mps_ppe_problem, 152);
+SIZE(mps_ppe_hint, 40);
+AT(mps_ppe_hint, struct_size, 0); AT(mps_ppe_hint, refused, 4); AT(mps_ppe_hint, unsolvable, 8); AT(mps_ppe_hint, reduce, 16);
+AT(mps_ppe_hint, owner, 24); AT(mps_ppe_hint, reduced, 32);
+
+SIZE(mps_ppe_problem, 168);
 AT(mps_ppe_problem, struct_size, 0); AT(mps_ppe_problem, dim, 4); AT(mps_ppe_problem, n, 8); AT(mps_ppe_problem, row, 16);
 AT(mps_ppe_problem, col, 24); AT(mps_ppe_problem, val, 32); AT(mps_ppe_problem, diagonal, 40); AT(mps_ppe_problem, rhs, 48);
 AT(mps_ppe_problem, shift, 56); AT(mps_ppe_problem, weight, 64); AT(mps_ppe_problem, x, 72); AT(mps_ppe_problem, dp, 80);
 AT(mps_ppe_problem, tolerance, 88); AT(mps_ppe_problem, divergence, 96); AT(mps_ppe_problem, max_iterations, 104);
 AT(mps_ppe_problem, components, 108); AT(mps_ppe_problem, component, 112); AT(mps_ppe_problem, gas, 120); AT(mps_ppe_problem, law, 128);
-AT(mps_ppe_problem, parallel, 136); AT(mps_ppe_problem, ranks, 144);
+AT(mps_ppe_problem, parallel, 136); AT(mps_ppe_problem, ranks, 144); AT(mps_ppe_problem, device, 152); AT(mps_ppe_problem, hint, 160);
 
 SIZE(mps_ppe_result, 40);
 AT(mps_ppe_result, struct_size, 0); AT(mps_ppe_result, reason, 4); AT(mps_ppe_result, iterations, 8); AT(mps_ppe_result, reserved, 12);
 AT(mps_ppe_result, residual, 16); AT(mps_ppe_result, divergence, 24); AT(mps_ppe_result, setup_seconds, 32);
 
-SIZE(mps_preconditioner_ops, 88);
+SIZE(mps_preconditioner_ops, 112);
 AT(mps_preconditioner_ops, struct_size, 0); AT(mps_preconditioner_ops, api, 4); AT(mps_preconditioner_ops, name, 8);
 AT(mps_preconditioner_ops, symmetric, 16); AT(mps_preconditioner_ops, create, 24); AT(mps_preconditioner_ops, setup, 32);
 AT(mps_preconditioner_ops, apply, 40); AT(mps_preconditioner_ops, destroy, 48); AT(mps_preconditioner_ops, user, 56);
-AT(mps_preconditioner_ops, help, 64); AT(mps_preconditioner_ops, ranks, 72); AT(mps_preconditioner_ops, reserved, 76);
-AT(mps_preconditioner_ops, reach, 80);
+AT(mps_preconditioner_ops, help, 64); AT(mps_preconditioner_ops, ranks, 72); AT(mps_preconditioner_ops, device, 76);
+AT(mps_preconditioner_ops, reach, 80); AT(mps_preconditioner_ops, release_device, 88); AT(mps_preconditioner_ops, fallback, 96);
+AT(mps_preconditioner_ops, setup_async, 104); AT(mps_preconditioner_ops, reserved, 108);
 
-SIZE(mps_solver_ops, 88);
+SIZE(mps_solver_ops, 104);
 AT(mps_solver_ops, struct_size, 0); AT(mps_solver_ops, api, 4); AT(mps_solver_ops, name, 8); AT(mps_solver_ops, preconditioner, 16);
 AT(mps_solver_ops, symmetric, 24); AT(mps_solver_ops, create, 32); AT(mps_solver_ops, solve, 40); AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56); AT(mps_solver_ops, user, 64); AT(mps_solver_ops, help, 72); AT(mps_solver_ops, ranks, 80);
+AT(mps_solver_ops, device, 84); AT(mps_solver_ops, hint, 88); AT(mps_solver_ops, release_device, 96);
 
 SIZE(mps_probe, 144);
 AT(mps_probe, struct_size, 0); AT(mps_probe, type, 4); AT(mps_probe, at, 8); AT(mps_probe, direction, 32); AT(mps_probe, diameter, 56);

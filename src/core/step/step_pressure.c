@@ -258,8 +258,8 @@ static mps_status solve_in_place(mps_stage *s, mps__ppe_terms *terms)
 {
     mps__world *w = mps__step_of(s)->w;
     /* on many ranks the solver on a device waits for each reduction, so the test is a separate
-     * one */
-    const bool joins = w->ppe.device && mps__ranks_many(&w->ranks);
+     * one, as for a solver without hints */
+    const bool joins = w->ppe.device && (mps__ranks_many(&w->ranks) || !w->solvers.use->hint);
     note_level(mps__step_of(s));
     if (joins) {
         MPS__TRY(mps__levels_wait(&w->ppe));
