@@ -282,9 +282,10 @@ int mps_ppe_sum(const mps_ppe_problem *problem, int32_t count, const mps_sums *a
         launch(d, &k, sum, NULL, NULL);
     else
         mps_exact_rows(problem->parallel, problem->n, MPS_PARALLEL_LEAST, run_sums, &k, &values);
-    const int failed = mps_ppe_total(problem, &values);
+    double lost = d && d->failed; /* of any rank: all ranks return the same */
+    const int failed = mps_ppe_total(problem, &(mps_exact_values){count, 1, sum, &lost});
     for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
-    return failed || (d && d->failed);
+    return failed || lost > 0;
 }
 
 int mps_ppe_max(const mps_ppe_problem *problem, int32_t count, const mps_sums *raise,
@@ -299,9 +300,10 @@ int mps_ppe_max(const mps_ppe_problem *problem, int32_t count, const mps_sums *r
         launch(d, &k, NULL, maxima, NULL);
     else
         mps_parallel_max(problem->parallel, problem->n, count, run_maxima, &k, maxima);
-    const int failed = mps_ppe_total(problem,
-                                     &(mps_exact_values){.maxima = count, .maximum = maxima});
-    return failed || (d && d->failed);
+    mps_exact lost = {{0}, 0, 0};
+    mps_exact_add(&lost, 1, &(double){d && d->failed});
+    const int failed = mps_ppe_total(problem, &(mps_exact_values){1, count, &lost, maxima});
+    return failed || mps_exact_value(&lost) > 0;
 }
 
 /* ---- what verbs call ---- */
