@@ -156,6 +156,7 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     k.mask = h ? mask_of(&k, d) : NULL;
     mps_launch l = {.dim = v.dim,
                     .n = v.n,
+                    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): rows or sums */
                     .file = k.rows ? k.rows->file : k.sums->file,
                     .name = k.rows ? k.rows->name : k.sums->name,
                     .view = &v,
