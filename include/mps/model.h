@@ -139,6 +139,14 @@ typedef struct mps_verb {
     const char *before;
     /** The action. @return 0, or non-zero after mps_stage_fail() */
     int (*run)(mps_stage *s);
+    /** 1: the verb runs on the device of the handle, if it has one (<mps/device.h>). Then the
+     *  arrays of mps_stage.data, of workspace and of the view are in device memory: the verb reads
+     *  and writes them in loops of mps_stage_rows(), mps_stage_sum() and mps_stage_max() only.
+     *  Scalars, and settings outside of loops, are in host memory. 0: it runs on the host; the
+     *  library copies the arrays. Ignored in MPS_POPULATE, which is on the host. */
+    int32_t device;
+    /** Kept 0. */
+    int32_t reserved;
 } mps_verb;
 
 /** A model. All strings and tables must outlive the handle. */

@@ -57,7 +57,7 @@ static int free_bodies(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = free_bodies}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = free_bodies, .device = 1}};
 
 const mps_model_ops mps__body_free = {.struct_size = sizeof(mps_model_ops),
                                       .api = MPS_MODEL_API,

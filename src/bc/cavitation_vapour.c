@@ -51,8 +51,12 @@ static int bound_pressures(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "*", .run = bound_pressures}};
+static const mps_verb verbs[] = {{.hook = MPS_SOURCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "*",
+                                  .run = bound_pressures,
+                                  .device = 1}};
 
 const mps_model_ops mps__cavitation_vapour = {
     .struct_size = sizeof(mps_model_ops),

@@ -208,7 +208,7 @@ static int load_walls(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_LOAD, .use_count = USES, .uses = uses, .run = load_walls}};
+    {.hook = MPS_LOAD, .use_count = USES, .uses = uses, .run = load_walls, .device = 1}};
 
 const mps_model_ops mps__load_reaction = {
     .struct_size = sizeof(mps_model_ops),

@@ -59,7 +59,7 @@ static int fix_layer(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = fix_layer}};
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = fix_layer, .device = 1}};
 
 const mps_model_ops mps__reference_gas = {
     .struct_size = sizeof(mps_model_ops),

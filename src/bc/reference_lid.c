@@ -78,7 +78,7 @@ static int subtract_mean(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_LEVEL, .use_count = USES, .uses = uses, .run = subtract_mean}};
+    {.hook = MPS_LEVEL, .use_count = USES, .uses = uses, .run = subtract_mean, .device = 1}};
 
 const mps_model_ops mps__reference_lid = {
     .struct_size = sizeof(mps_model_ops),

@@ -77,8 +77,12 @@ static int let_go(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .after = "reference", .run = let_go}};
+static const mps_verb verbs[] = {{.hook = MPS_SOURCE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "reference",
+                                  .run = let_go,
+                                  .device = 1}};
 
 const mps_model_ops mps__separation_void = {
     .struct_size = sizeof(mps_model_ops),

@@ -302,7 +302,7 @@ static int find_surface(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface}};
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_surface, .device = 1}};
 
 const mps_model_ops mps__surface_asymmetry = {
     .struct_size = sizeof(mps_model_ops),

@@ -58,7 +58,7 @@ static int find_spray(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_spray}};
+    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .run = find_spray, .device = 1}};
 
 const mps_model_ops mps__surface_detached = {
     .struct_size = sizeof(mps_model_ops),

@@ -82,13 +82,17 @@ static int extrapolate(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = DENSITY_USES, .uses = density_uses, .run = take_densities},
-    {.hook = MPS_LEVEL,
-     .use_count = PRESSURE_USES,
-     .uses = pressure_uses,
-     .after = "reference",
-     .run = extrapolate}};
+static const mps_verb verbs[] = {{.hook = MPS_PREPARE,
+                                  .use_count = DENSITY_USES,
+                                  .uses = density_uses,
+                                  .run = take_densities,
+                                  .device = 1},
+                                 {.hook = MPS_LEVEL,
+                                  .use_count = PRESSURE_USES,
+                                  .uses = pressure_uses,
+                                  .after = "reference",
+                                  .run = extrapolate,
+                                  .device = 1}};
 
 const mps_model_ops mps__wall_extrapolate = {
     .struct_size = sizeof(mps_model_ops),

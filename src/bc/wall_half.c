@@ -125,8 +125,12 @@ static int wet_walls(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_CLASSIFY, .use_count = USES, .uses = uses, .after = "surface", .run = wet_walls}};
+static const mps_verb verbs[] = {{.hook = MPS_CLASSIFY,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .after = "surface",
+                                  .run = wet_walls,
+                                  .device = 1}};
 
 const mps_model_ops mps__wall_half = {
     .struct_size = sizeof(mps_model_ops),

@@ -102,7 +102,7 @@ static int collide_particles(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_VELOCITY, .use_count = USES, .uses = uses, .run = collide_particles}};
+    {.hook = MPS_VELOCITY, .use_count = USES, .uses = uses, .run = collide_particles, .device = 1}};
 
 const mps_model_ops mps__collision_pair = {
     .struct_size = sizeof(mps_model_ops),

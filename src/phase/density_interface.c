@@ -222,7 +222,7 @@ static int find_distances(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_distances}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_distances, .device = 1}};
 
 const mps_model_ops mps__density_interface = {
     .struct_size = sizeof(mps_model_ops),

@@ -51,7 +51,7 @@ static int smooth_densities(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = smooth_densities}};
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = smooth_densities, .device = 1}};
 
 const mps_model_ops mps__density_smooth = {
     .struct_size = sizeof(mps_model_ops),

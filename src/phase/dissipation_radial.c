@@ -112,7 +112,8 @@ static const mps_verb verbs[] = {{.hook = MPS_FORCE,
                                   .uses = uses,
                                   .after = "viscosity",
                                   .before = "tension",
-                                  .run = damp_pairs}};
+                                  .run = damp_pairs,
+                                  .device = 1}};
 
 const mps_model_ops mps__dissipation_radial = {
     .struct_size = sizeof(mps_model_ops),

@@ -153,7 +153,8 @@ static const mps_verb verbs[] = {{.hook = MPS_VELOCITY,
                                   .use_count = USES,
                                   .uses = uses,
                                   .before = "collision",
-                                  .run = drag_lone_gas}};
+                                  .run = drag_lone_gas,
+                                  .device = 1}};
 
 const mps_model_ops mps__drag_lone = {
     .struct_size = sizeof(mps_model_ops),

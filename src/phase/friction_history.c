@@ -196,12 +196,14 @@ static const mps_verb verbs[] = {{.hook = MPS_FORCE,
                                   .use_count = USES,
                                   .uses = force_uses,
                                   .after = "dissipation",
-                                  .run = pull_fluid},
+                                  .run = pull_fluid,
+                                  .device = 1},
                                  {.hook = MPS_VELOCITY,
                                   .use_count = SHARED_USES,
                                   .uses = velocity_uses,
                                   .after = "*",
-                                  .run = follow_fluid}};
+                                  .run = follow_fluid,
+                                  .device = 1}};
 
 const mps_model_ops mps__friction_history = {
     .struct_size = sizeof(mps_model_ops),

@@ -341,12 +341,14 @@ static int compress_compressible(mps_stage *s)
 static const mps_verb compressible_verbs[] = {{.hook = MPS_PREPARE,
                                                .use_count = EXPECT_USES,
                                                .uses = expect_uses,
-                                               .run = expect_compressible},
+                                               .run = expect_compressible,
+                                               .device = 1},
                                               {.hook = MPS_SOURCE,
                                                .use_count = USES - 1,
                                                .uses = uses,
                                                .after = "source",
-                                               .run = compress_compressible}};
+                                               .run = compress_compressible,
+                                               .device = 1}};
 
 const mps_model_ops mps__gas_compressible = {
     .struct_size = sizeof(mps_model_ops),
@@ -388,13 +390,17 @@ static int compress_isentropic(mps_stage *s)
     return compress_gas(s, &law);
 }
 
-static const mps_verb isentropic_verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = EXPECT_USES, .uses = expect_uses, .run = expect_isentropic},
-    {.hook = MPS_SOURCE,
-     .use_count = USES,
-     .uses = uses,
-     .after = "source",
-     .run = compress_isentropic}};
+static const mps_verb isentropic_verbs[] = {{.hook = MPS_PREPARE,
+                                             .use_count = EXPECT_USES,
+                                             .uses = expect_uses,
+                                             .run = expect_isentropic,
+                                             .device = 1},
+                                            {.hook = MPS_SOURCE,
+                                             .use_count = USES,
+                                             .uses = uses,
+                                             .after = "source",
+                                             .run = compress_isentropic,
+                                             .device = 1}};
 
 const mps_model_ops mps__gas_isentropic = {
     .struct_size = sizeof(mps_model_ops),

@@ -413,24 +413,31 @@ static double reach(const double *setting, double dp)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_LIMIT, .run = limit_step},
-    {.hook = MPS_PREPARE, .use_count = FIND_USES, .uses = find_uses, .run = find_pockets},
+    {.hook = MPS_LIMIT, .run = limit_step, .device = 1},
+    {.hook = MPS_PREPARE,
+     .use_count = FIND_USES,
+     .uses = find_uses,
+     .run = find_pockets,
+     .device = 1},
     {.hook = MPS_SOURCE,
      .use_count = SET_USES,
      .uses = set_uses,
      .after = "separation",
-     .run = set_pressures},
+     .run = set_pressures,
+     .device = 1},
     {.hook = MPS_GRADIENT,
      .use_count = FILM_USES,
      .uses = film_uses,
      .after = "gradient",
-     .run = push_films},
+     .run = push_films,
+     .device = 1},
     {.hook = MPS_LOAD,
      .use_count = LOAD_USES,
      .uses = load_uses,
      .after = "load",
-     .run = load_walls},
-    {.hook = MPS_SHIFT, .use_count = BOOK_USES, .uses = book_uses, .run = book_gas}};
+     .run = load_walls,
+     .device = 1},
+    {.hook = MPS_SHIFT, .use_count = BOOK_USES, .uses = book_uses, .run = book_gas, .device = 1}};
 
 const mps_model_ops mps__gas_pocket = {.struct_size = sizeof(mps_model_ops),
                                        .api = MPS_MODEL_API,

@@ -92,7 +92,7 @@ static int accelerate_fluid(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid}};
+    {.hook = MPS_GRADIENT, .use_count = USES, .uses = uses, .run = accelerate_fluid, .device = 1}};
 
 const mps_model_ops mps__gradient_corrected = {
     .struct_size = sizeof(mps_model_ops),

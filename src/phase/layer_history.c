@@ -349,14 +349,19 @@ static int follow_fluid(mps_stage *s)
     return mps_stage_reaction(s, NULL, f.friction);
 }
 
-static const mps_verb verbs[] = {
-    {.hook = MPS_FORCE, .use_count = USES, .uses = force_uses, .after = "*", .run = pull_fluid},
-    {.hook = MPS_VELOCITY,
-     .use_count = ACCELERATION,
-     .uses = velocity_uses,
-     .after = "*",
-     .before = "friction",
-     .run = follow_fluid}};
+static const mps_verb verbs[] = {{.hook = MPS_FORCE,
+                                  .use_count = USES,
+                                  .uses = force_uses,
+                                  .after = "*",
+                                  .run = pull_fluid,
+                                  .device = 1},
+                                 {.hook = MPS_VELOCITY,
+                                  .use_count = ACCELERATION,
+                                  .uses = velocity_uses,
+                                  .after = "*",
+                                  .before = "friction",
+                                  .run = follow_fluid,
+                                  .device = 1}};
 
 const mps_model_ops mps__layer_history = {
     .struct_size = sizeof(mps_model_ops),

@@ -103,8 +103,12 @@ static int invert_moments(mps_stage *s)
 }
 
 /* Before the gas subtracts its law from the volume deviation. */
-static const mps_verb verbs[] = {
-    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .before = "gas", .run = invert_moments}};
+static const mps_verb verbs[] = {{.hook = MPS_PREPARE,
+                                  .use_count = USES,
+                                  .uses = uses,
+                                  .before = "gas",
+                                  .run = invert_moments,
+                                  .device = 1}};
 
 const mps_model_ops mps__moments_bounded = {
     .struct_size = sizeof(mps_model_ops),

@@ -250,7 +250,7 @@ static int shift_fluid(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_SHIFT, .use_count = USES, .uses = uses, .run = shift_fluid}};
+    {.hook = MPS_SHIFT, .use_count = USES, .uses = uses, .run = shift_fluid, .device = 1}};
 
 const mps_model_ops mps__shift_tangential = {
     .struct_size = sizeof(mps_model_ops),

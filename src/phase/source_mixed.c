@@ -50,8 +50,8 @@ static int add_sources(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_CLASSIFY, .use_count = 1, .uses = equation_uses, .run = set_equation},
-    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources}};
+    {.hook = MPS_CLASSIFY, .use_count = 1, .uses = equation_uses, .run = set_equation, .device = 1},
+    {.hook = MPS_SOURCE, .use_count = USES, .uses = uses, .run = add_sources, .device = 1}};
 
 const mps_model_ops mps__source_mixed = {
     .struct_size = sizeof(mps_model_ops),

@@ -75,13 +75,14 @@ static int limit_step(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step},
+static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step, .device = 1},
                                  {.hook = MPS_FORCE,
                                   .use_count = USES,
                                   .uses = uses,
                                   .after = "viscosity",
                                   .before = "friction",
-                                  .run = pull_interfaces}};
+                                  .run = pull_interfaces,
+                                  .device = 1}};
 
 const mps_model_ops mps__tension_csf = {.struct_size = sizeof(mps_model_ops),
                                         .api = MPS_MODEL_API,

@@ -78,8 +78,8 @@ static int limit_step(mps_stage *s)
 }
 
 static const mps_verb verbs[] = {
-    {.hook = MPS_LIMIT, .run = limit_step},
-    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps}};
+    {.hook = MPS_LIMIT, .run = limit_step, .device = 1},
+    {.hook = MPS_PREPARE, .use_count = USES, .uses = uses, .run = find_jumps, .device = 1}};
 
 const mps_model_ops mps__tension_jump = {
     .struct_size = sizeof(mps_model_ops),

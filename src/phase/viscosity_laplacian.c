@@ -91,7 +91,8 @@ static const mps_verb verbs[] = {{.hook = MPS_FORCE,
                                   .use_count = USES,
                                   .uses = uses,
                                   .before = "friction",
-                                  .run = diffuse_velocity}};
+                                  .run = diffuse_velocity,
+                                  .device = 1}};
 
 const mps_model_ops mps__viscosity_laplacian = {
     .struct_size = sizeof(mps_model_ops),

@@ -190,12 +190,13 @@ static int limit_step(mps_stage *s)
     return 0;
 }
 
-static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step},
+static const mps_verb verbs[] = {{.hook = MPS_LIMIT, .run = limit_step, .device = 1},
                                  {.hook = MPS_FORCE,
                                   .use_count = USES,
                                   .uses = uses,
                                   .before = "friction",
-                                  .run = diffuse_velocity}};
+                                  .run = diffuse_velocity,
+                                  .device = 1}};
 
 const mps_model_ops mps__viscosity_pair = {.struct_size = sizeof(mps_model_ops),
                                            .api = MPS_MODEL_API,

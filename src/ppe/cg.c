@@ -38,7 +38,7 @@ MPS_ROW int64_t whether_to_begin(const mps__cg_recurrence *f)
 {
     const double now = mps__cg_note_residual(f, GUESS);
     f->n->norm_limit = f->tolerance * sqrt(mps_exact_value(&f->begun->rhs_squares));
-    if (f->doubt && *f->doubt > -INFINITY) return REFUSED;
+    if (f->unsolvable && *f->unsolvable > -INFINITY) return REFUSED;
     if (!isfinite(f->n->residual[GUESS])) return NOWHERE;
     if (now <= 1) return SOLVED;
     return f->begun->negative > 0 ? NEGATIVE_ROW : begin_run(f, now, 1);

@@ -15,7 +15,6 @@ typedef struct mps__cg {
     const mps_ppe_problem *problem;
     const mps_preconditioner_ops *pc; /* NULL: none */
     void *pc_self;
-    mps__pcg_hint *hint;
     void *workspace;               /* [mps__cg_bytes()] bytes */
     double *p;                     /* first guess and solution */
     double *start;                 /* workspace: the first guess */

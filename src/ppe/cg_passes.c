@@ -93,11 +93,11 @@ static void queue_end(mps__cg_solving *s)
 /* Wait for the numbers, and for the value of the pressures that the caller requested. */
 static mps__cg_numbers fetch(const mps__cg_solving *s)
 {
-    mps__pcg_hint *hint = s->c->hint;
+    mps_ppe_hint *hint = s->c->problem->hint;
     mps__cg_numbers n = {.stop = BROKEN};
-    if (hint && hint->look) hint->look(hint->owner, &s->on_device->numbers.seen);
+    if (hint && hint->reduce) hint->reduce(hint->owner, &s->on_device->numbers.reduced);
     mps__device_download(s->device, &n, &s->on_device->numbers, sizeof n);
-    if (hint) hint->seen = hint->look ? n.seen : NAN;
+    if (hint) hint->reduced = hint->reduce ? n.reduced : NAN;
     if (hint) hint->refused = n.stop == REFUSED;
     if (s->device->failed) n = (mps__cg_numbers){.stop = BROKEN};
     return n;
@@ -233,7 +233,7 @@ static mps__cg_solving begin(const mps__cg *c)
                                    .checked = &on_device->checked,
                                    .got = &on_device->got,
                                    .poison = &on_device->poison,
-                                   .doubt = c->hint ? c->hint->doubt : NULL,
+                                   .unsolvable = e->hint ? e->hint->unsolvable : NULL,
                                    .row = e->row,
                                    .col = e->col,
                                    .val = e->val,
@@ -256,7 +256,7 @@ static mps__cg_solving begin(const mps__cg *c)
 int mps__cg_solve(const mps__cg *c, mps_ppe_result *result)
 {
     const mps_ppe_problem *problem = c->problem;
-    const bool ready = !c->pc || (c->hint && c->hint->ready);
+    const bool ready = !c->pc || c->pc->setup_async;
     mps__cg_solving s = begin(c);
     queue_beginning(&s);
     int reason = ready ? -1 : look_at_beginning(&s, result);
@@ -268,7 +268,7 @@ int mps__cg_solve(const mps__cg *c, mps_ppe_result *result)
     if (failed || !(mps__result_excess(problem, result) <= s.excess)) {
         mps__vectors_copy(s.parallel, s.n, c->start, c->p);
         mps_ppe_check(problem, c->p, c->r, result);
-        if (c->hint) c->hint->seen = NAN;
+        if (problem->hint) problem->hint->reduced = NAN;
     }
     return reason;
 }

@@ -51,7 +51,7 @@ typedef struct mps__cg_numbers {
     /* the run stops when the residual is at most `delta` times its limits */
     double norm_limit, delta;
     double residual[2], divergence[2]; /* of the first guess; current */
-    double seen;                       /* of the hint */
+    double reduced;                    /* of the hint */
 } mps__cg_numbers;
 
 enum { GUESS, NOW };
@@ -70,7 +70,7 @@ typedef struct mps__cg_recurrence {
     const mps__cg_begun *begun;
     const mps__cg_checked *checked;
     const mps__reduced *got;
-    const double *poison, *doubt;
+    const double *poison, *unsolvable;
     /* the equation */
     const int64_t *row;
     const int32_t *col;

@@ -26,7 +26,7 @@ static int create(const mps_allocator *allocator, void **self)
 static void settle(jacobi *j, const mps_parallel *parallel)
 {
     mps__device *d = mps__device_of(parallel);
-    const mps_allocator wanted = d ? mps__device_allocator(d) : j->allocator;
+    const mps_allocator wanted = d ? d->memory : j->allocator;
     if (wanted.alloc == j->arrays.alloc && wanted.user == j->arrays.user) return;
     mps__release(&j->arrays, j->inverse);
     j->inverse = NULL;
@@ -34,7 +34,7 @@ static void settle(jacobi *j, const mps_parallel *parallel)
     j->arrays = wanted;
 }
 
-void mps__jacobi_release_device(void *self)
+static void release_device(void *self)
 {
     settle(self, NULL);
 }
@@ -126,4 +126,7 @@ const mps_preconditioner_ops mps__preconditioner_jacobi = {
     .destroy = destroy,
     .help = "Diagonal scaling",
     .ranks = 1,
+    .device = 1,
+    .release_device = release_device,
+    .setup_async = 1,
 };

@@ -21,7 +21,7 @@ enum { CLONES = 9, MOST_STEPS = 60 }; /* KINSOL clones 5 vectors, conjugate grad
 static const double DEEPEST = 1e-10;  /* residual reduction of one linear solution */
 
 typedef struct newton {
-    const mps__solver_log *log;
+    mps__context *log; /* NULL: no log */
     mps__space space;
     void *kinsol;
     SUNLinearSolver solver;

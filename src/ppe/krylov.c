@@ -9,7 +9,7 @@
 
 typedef struct krylov {
     const mps__krylov_kind *kind;
-    const mps__solver_log *log;
+    mps__context *log; /* NULL: no log */
     mps__space space;
     SUNLinearSolver solver;
     N_Vector x, b, stop;
@@ -21,8 +21,7 @@ typedef struct krylov {
     const mps_ppe_problem *problem;
     const mps_preconditioner_ops *pc;
     void *pc_self;
-    mps__pcg_hint *hint; /* NULL: none */
-    int failure;         /* failure in a callback, 0: none */
+    int failure; /* failure in a callback, 0: none */
 } krylov;
 
 /* ---- callbacks of SUNDIALS: a non-zero value stops the solver ---- */
@@ -112,7 +111,7 @@ static bool make_arrays(krylov *k, int64_t capacity, bool stays)
 static void settle(krylov *k, const mps_parallel *parallel)
 {
     mps__device *d = mps__device_of(parallel);
-    const mps_allocator wanted = d ? mps__device_allocator(d) : k->space.allocator;
+    const mps_allocator wanted = d ? d->memory : k->space.allocator;
     if (wanted.alloc == k->space.arrays.alloc && wanted.user == k->space.arrays.user) return;
     drop_arrays(k);
     mps__space_release_device(&k->space, &wanted);
@@ -121,12 +120,6 @@ static void settle(krylov *k, const mps_parallel *parallel)
 void mps__krylov_release_device(void *self)
 {
     settle(self, NULL);
-}
-
-void mps__krylov_expect(void *self, mps__pcg_hint *hint)
-{
-    krylov *k = self;
-    k->hint = hint;
 }
 
 /* Make all objects that SUNDIALS allocates, once, before the first step. */
@@ -267,7 +260,6 @@ static int attempt_device(krylov *k, double *p, mps_ppe_result *result)
     mps__cg c = {.problem = k->problem,
                  .pc = k->pc,
                  .pc_self = k->pc_self,
-                 .hint = k->hint,
                  .workspace = k->workspace,
                  .p = p,
                  .start = k->start,

@@ -22,8 +22,6 @@ typedef struct mps__krylov_kind {
 int mps__krylov_create(const mps__krylov_kind *kind, const mps_allocator *allocator, void **self);
 void mps__krylov_solve(void *self, const mps_ppe_problem *problem, const mps_preconditioner_ops *pc,
                        void *pc_self, double *p, mps_ppe_result *result);
-/* mps__pcg_expect() */
-void mps__krylov_expect(void *self, mps__pcg_hint *hint);
 /* Free device memory. */
 void mps__krylov_release_device(void *self);
 void mps__krylov_destroy(const mps_allocator *allocator, void *self);

@@ -24,16 +24,6 @@ static int create(const mps_allocator *allocator, void **self)
     return mps__krylov_create(&kind, allocator, self);
 }
 
-void mps__pcg_release_device(void *self)
-{
-    mps__krylov_release_device(self);
-}
-
-void mps__pcg_expect(void *self, mps__pcg_hint *hint)
-{
-    mps__krylov_expect(self, hint);
-}
-
 const mps_solver_ops mps__solver_pcg = {
     .struct_size = sizeof(mps_solver_ops),
     .api = MPS_PPE_API,
@@ -45,4 +35,7 @@ const mps_solver_ops mps__solver_pcg = {
     .destroy = mps__krylov_destroy,
     .help = "Preconditioned conjugate gradients, for symmetric matrices",
     .ranks = 1,
+    .device = 1,
+    .hint = 1,
+    .release_device = mps__krylov_release_device,
 };

@@ -3,10 +3,9 @@
 #ifndef MPS_PPE_SUNDIALS_COMPAT_H
 #define MPS_PPE_SUNDIALS_COMPAT_H
 
-#include "builtin.h"
+#include "base.h"
 #include <kinsol/kinsol.h>
 #include <stddef.h>
-#include <stdio.h>
 #include <sundials/sundials_config.h>
 #include <sundials/sundials_context.h>
 #include <sundials/sundials_linearsolver.h>
@@ -29,16 +28,14 @@ enum { MPS__SUNDIALS_SUCCESS = SUNLS_SUCCESS };
 
 /* Log an error. The usual ends of an iteration are no errors: the reason of the result states
  * them. */
-static inline void mps__sundials_report(const mps__solver_log *log, int code, const char *function,
+static inline void mps__sundials_report(mps__context *log, int code, const char *function,
                                         const char *text)
 {
-    char line[256];
     if (!log || code >= 0 || code == KIN_MAXITER_REACHED || code == KIN_MXNEWT_5X_EXCEEDED ||
         code == KIN_LINSOLV_NO_RECOVERY || code == KIN_LSETUP_FAIL || code == KIN_LSOLVE_FAIL)
         return;
-    snprintf(line, sizeof line, "SUNDIALS, %s, error %d: %s", function ? function : "?", code,
+    mps__log(log, MPS_LOG_WARNING, "SUNDIALS, %s, error %d: %s", function ? function : "?", code,
              text ? text : "?");
-    log->warn(log->user, line);
 }
 
 #if SUNDIALS_VERSION_MAJOR >= 7
@@ -59,14 +56,13 @@ static inline void mps__sundials_error(int code, const char *module, const char 
 #endif
 
 /* A context without MPI that does not print, or NULL. */
-static inline SUNContext mps__sundials_context(const mps__solver_log *log)
+static inline SUNContext mps__sundials_context(mps__context *log)
 {
     SUNContext context = NULL;
 #if SUNDIALS_VERSION_MAJOR >= 7
     if (SUNContext_Create(SUN_COMM_NULL, &context)) return NULL;
     SUNContext_ClearErrHandlers(context); /* the default handler writes to stderr */
-    if (SUNContext_PushErrHandler(context, mps__sundials_error, (void *)(uintptr_t)log))
-        SUNContext_Free(&context);
+    if (SUNContext_PushErrHandler(context, mps__sundials_error, log)) SUNContext_Free(&context);
 #else
     (void)log; /* errors are those of KINSOL, which has its own handler */
     if (SUNContext_Create(NULL, &context)) return NULL;
@@ -75,12 +71,12 @@ static inline SUNContext mps__sundials_context(const mps__solver_log *log)
 }
 
 /* KINSOL's memory, without printing. NULL: out of memory. */
-static inline void *mps__kinsol_create(SUNContext context, const mps__solver_log *log)
+static inline void *mps__kinsol_create(SUNContext context, mps__context *log)
 {
     void *kinsol = KINCreate(context);
 #if SUNDIALS_VERSION_MAJOR < 7
-    if (kinsol && (KINSetErrFile(kinsol, NULL) ||
-                   KINSetErrHandlerFn(kinsol, mps__sundials_error, (void *)(uintptr_t)log)))
+    if (kinsol &&
+        (KINSetErrFile(kinsol, NULL) || KINSetErrHandlerFn(kinsol, mps__sundials_error, log)))
         KINFree(&kinsol);
 #else
     (void)log;

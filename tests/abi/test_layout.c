@@ -74,12 +74,12 @@ AT(mps_launch, struct_size, 0); AT(mps_launch, dim, 4); AT(mps_launch, n, 8); AT
 AT(mps_launch, view, 32); AT(mps_launch, fields, 40); AT(mps_launch, bytes, 48); AT(mps_launch, sums, 56); AT(mps_launch, maxima, 60);
 AT(mps_launch, run, 64); AT(mps_launch, host, 72); AT(mps_launch, cancel, 80); AT(mps_launch, mask, 88);
 
-SIZE(mps_device_ops, 136);
+SIZE(mps_device_ops, 144);
 AT(mps_device_ops, struct_size, 0); AT(mps_device_ops, api, 4); AT(mps_device_ops, name, 8); AT(mps_device_ops, self, 16);
 AT(mps_device_ops, alloc, 24); AT(mps_device_ops, free, 32); AT(mps_device_ops, upload, 40); AT(mps_device_ops, download, 48);
 AT(mps_device_ops, clear, 56); AT(mps_device_ops, copy, 64); AT(mps_device_ops, launch, 72); AT(mps_device_ops, reduce, 80);
 AT(mps_device_ops, reduce_async, 88); AT(mps_device_ops, wait, 96); AT(mps_device_ops, failure, 104); AT(mps_device_ops, invalidated, 112);
-AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128);
+AT(mps_device_ops, begin, 120); AT(mps_device_ops, end, 128); AT(mps_device_ops, plugin_loops, 136); AT(mps_device_ops, reserved, 140);
 
 SIZE(mps_device_info, 72);
 AT(mps_device_info, struct_size, 0); AT(mps_device_info, host_calls, 4); AT(mps_device_info, name, 8); AT(mps_device_info, launches, 16);
@@ -185,9 +185,9 @@ SIZE(mps_setting, 56);
 AT(mps_setting, key, 0); AT(mps_setting, unit, 8); AT(mps_setting, help, 16); AT(mps_setting, type, 24); AT(mps_setting, initial, 32);
 AT(mps_setting, min, 40); AT(mps_setting, max, 48);
 
-SIZE(mps_verb, 40);
+SIZE(mps_verb, 48);
 AT(mps_verb, hook, 0); AT(mps_verb, use_count, 4); AT(mps_verb, uses, 8); AT(mps_verb, after, 16); AT(mps_verb, before, 24);
-AT(mps_verb, run, 32);
+AT(mps_verb, run, 32); AT(mps_verb, device, 40); AT(mps_verb, reserved, 44);
 
 SIZE(mps_model_ops, 112);
 AT(mps_model_ops, struct_size, 0); AT(mps_model_ops, api, 4); AT(mps_model_ops, name, 8); AT(mps_model_ops, help, 16);
@@ -286,29 +286,35 @@ AT(mps_ppe_ranks, ghosts, 16); AT(mps_ppe_ranks, rows, 24); AT(mps_ppe_ranks, fi
 AT(mps_ppe_ranks, owner, 48); AT(mps_ppe_ranks, halo, 56); AT(mps_ppe_ranks, reduce, 64); AT(mps_ppe_ranks, gather, 72);
 AT(mps_ppe_ranks, connect, 80); AT(mps_ppe_ranks, disconnect, 88); AT(mps_ppe_ranks, exchange, 96); AT(mps_ppe_ranks, host, 104);
 
-SIZE(mps_ppe_problem, 152);
+SIZE(mps_ppe_hint, 40);
+AT(mps_ppe_hint, struct_size, 0); AT(mps_ppe_hint, refused, 4); AT(mps_ppe_hint, unsolvable, 8); AT(mps_ppe_hint, reduce, 16);
+AT(mps_ppe_hint, owner, 24); AT(mps_ppe_hint, reduced, 32);
+
+SIZE(mps_ppe_problem, 168);
 AT(mps_ppe_problem, struct_size, 0); AT(mps_ppe_problem, dim, 4); AT(mps_ppe_problem, n, 8); AT(mps_ppe_problem, row, 16);
 AT(mps_ppe_problem, col, 24); AT(mps_ppe_problem, val, 32); AT(mps_ppe_problem, diagonal, 40); AT(mps_ppe_problem, rhs, 48);
 AT(mps_ppe_problem, shift, 56); AT(mps_ppe_problem, weight, 64); AT(mps_ppe_problem, x, 72); AT(mps_ppe_problem, dp, 80);
 AT(mps_ppe_problem, tolerance, 88); AT(mps_ppe_problem, divergence, 96); AT(mps_ppe_problem, max_iterations, 104);
 AT(mps_ppe_problem, components, 108); AT(mps_ppe_problem, component, 112); AT(mps_ppe_problem, gas, 120); AT(mps_ppe_problem, law, 128);
-AT(mps_ppe_problem, parallel, 136); AT(mps_ppe_problem, ranks, 144);
+AT(mps_ppe_problem, parallel, 136); AT(mps_ppe_problem, ranks, 144); AT(mps_ppe_problem, device, 152); AT(mps_ppe_problem, hint, 160);
 
 SIZE(mps_ppe_result, 40);
 AT(mps_ppe_result, struct_size, 0); AT(mps_ppe_result, reason, 4); AT(mps_ppe_result, iterations, 8); AT(mps_ppe_result, reserved, 12);
 AT(mps_ppe_result, residual, 16); AT(mps_ppe_result, divergence, 24); AT(mps_ppe_result, setup_seconds, 32);
 
-SIZE(mps_preconditioner_ops, 88);
+SIZE(mps_preconditioner_ops, 112);
 AT(mps_preconditioner_ops, struct_size, 0); AT(mps_preconditioner_ops, api, 4); AT(mps_preconditioner_ops, name, 8);
 AT(mps_preconditioner_ops, symmetric, 16); AT(mps_preconditioner_ops, create, 24); AT(mps_preconditioner_ops, setup, 32);
 AT(mps_preconditioner_ops, apply, 40); AT(mps_preconditioner_ops, destroy, 48); AT(mps_preconditioner_ops, user, 56);
-AT(mps_preconditioner_ops, help, 64); AT(mps_preconditioner_ops, ranks, 72); AT(mps_preconditioner_ops, reserved, 76);
-AT(mps_preconditioner_ops, reach, 80);
+AT(mps_preconditioner_ops, help, 64); AT(mps_preconditioner_ops, ranks, 72); AT(mps_preconditioner_ops, device, 76);
+AT(mps_preconditioner_ops, reach, 80); AT(mps_preconditioner_ops, release_device, 88); AT(mps_preconditioner_ops, fallback, 96);
+AT(mps_preconditioner_ops, setup_async, 104); AT(mps_preconditioner_ops, reserved, 108);
 
-SIZE(mps_solver_ops, 88);
+SIZE(mps_solver_ops, 104);
 AT(mps_solver_ops, struct_size, 0); AT(mps_solver_ops, api, 4); AT(mps_solver_ops, name, 8); AT(mps_solver_ops, preconditioner, 16);
 AT(mps_solver_ops, symmetric, 24); AT(mps_solver_ops, create, 32); AT(mps_solver_ops, solve, 40); AT(mps_solver_ops, destroy, 48);
 AT(mps_solver_ops, nonlinear, 56); AT(mps_solver_ops, user, 64); AT(mps_solver_ops, help, 72); AT(mps_solver_ops, ranks, 80);
+AT(mps_solver_ops, device, 84); AT(mps_solver_ops, hint, 88); AT(mps_solver_ops, release_device, 96);
 
 SIZE(mps_probe, 144);
 AT(mps_probe, struct_size, 0); AT(mps_probe, type, 4); AT(mps_probe, at, 8); AT(mps_probe, direction, 32); AT(mps_probe, diameter, 56);

@@ -366,7 +366,8 @@ void shadow_attach(shadow *s, mps_sim *sim)
                           .reduce_async = gather,
                           .wait = wait_for,
                           .failure = failure,
-                          .invalidated = invalidated}};
+                          .invalidated = invalidated,
+                          .plugin_loops = 1}};
     if (sim->context.allocator.alloc == heap_alloc) s->heap = sim->context.allocator.user;
     assert_int_equal(mps_sim_device_set(sim, &s->ops), MPS_OK);
 }

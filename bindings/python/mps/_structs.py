@@ -105,7 +105,7 @@ mps_setting._fields_ = [
 ]
 mps_verb._fields_ = [
     ("hook", c_int32), ("use_count", c_int32), ("uses", POINTER(mps_use)), ("after", c_char_p), ("before", c_char_p),
-    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))),
+    ("run", CFUNCTYPE(c_int, POINTER(mps_stage))), ("device", c_int32), ("reserved", c_int32),
 ]
 mps_model_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
@@ -153,12 +153,17 @@ mps_ppe_ranks._fields_ = [
     ("disconnect", CFUNCTYPE(None, c_void_p, POINTER(mps_route))),
     ("exchange", CFUNCTYPE(c_int, c_void_p, POINTER(mps_route), c_size_t, c_void_p, c_void_p)), ("host", c_void_p),
 ]
+mps_ppe_hint._fields_ = [
+    ("struct_size", c_uint32), ("refused", c_int32), ("unsolvable", POINTER(c_double)),
+    ("reduce", CFUNCTYPE(None, c_void_p, POINTER(c_double))), ("owner", c_void_p), ("reduced", c_double),
+]
 mps_ppe_problem._fields_ = [
     ("struct_size", c_uint32), ("dim", c_int32), ("n", c_int64), ("row", POINTER(c_int64)), ("col", POINTER(c_int32)),
     ("val", POINTER(c_float)), ("diagonal", POINTER(c_double)), ("rhs", POINTER(c_double)), ("shift", POINTER(c_double)),
     ("weight", POINTER(c_double)), ("x", POINTER(c_double)), ("dp", c_double), ("tolerance", c_double), ("divergence", c_double),
     ("max_iterations", c_int32), ("components", c_int32), ("component", POINTER(c_int32)), ("gas", POINTER(c_double)),
     ("law", POINTER(c_double)), ("parallel", POINTER(mps_parallel)), ("ranks", POINTER(mps_ppe_ranks)),
+    ("device", POINTER(mps_allocator)), ("hint", POINTER(mps_ppe_hint)),
 ]
 mps_ppe_result._fields_ = [
     ("struct_size", c_uint32), ("reason", c_int32), ("iterations", c_int32), ("reserved", c_int32), ("residual", c_double),
@@ -170,14 +175,15 @@ mps_preconditioner_ops._fields_ = [
     ("setup", CFUNCTYPE(c_int, c_void_p, POINTER(mps_ppe_problem))),
     ("apply", CFUNCTYPE(c_int, c_void_p, POINTER(c_double), POINTER(c_double))),
     ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("user", c_void_p), ("help", c_char_p), ("ranks", c_int32),
-    ("reserved", c_int32), ("reach", c_double),
+    ("device", c_int32), ("reach", c_double), ("release_device", CFUNCTYPE(None, c_void_p)), ("fallback", c_char_p),
+    ("setup_async", c_int32), ("reserved", c_int32),
 ]
 mps_solver_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("preconditioner", c_char_p), ("symmetric", c_int32),
     ("create", CFUNCTYPE(c_int, POINTER(mps_allocator), POINTER(c_void_p))),
     ("solve", CFUNCTYPE(None, c_void_p, POINTER(mps_ppe_problem), POINTER(mps_preconditioner_ops), c_void_p, POINTER(c_double), POINTER(mps_ppe_result))),
     ("destroy", CFUNCTYPE(None, POINTER(mps_allocator), c_void_p)), ("nonlinear", c_int32), ("user", c_void_p), ("help", c_char_p),
-    ("ranks", c_int32),
+    ("ranks", c_int32), ("device", c_int32), ("hint", c_int32), ("release_device", CFUNCTYPE(None, c_void_p)),
 ]
 mps_drive_ops._fields_ = [
     ("struct_size", c_uint32), ("api", c_uint32), ("name", c_char_p), ("help", c_char_p), ("setting_count", c_int32),
@@ -294,7 +300,7 @@ mps_device_ops._fields_ = [
     ("reduce", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), POINTER(mps_exact), POINTER(c_double))),
     ("reduce_async", CFUNCTYPE(c_int, c_void_p, POINTER(mps_launch), c_void_p)), ("wait", CFUNCTYPE(c_int, c_void_p)),
     ("failure", CFUNCTYPE(c_void_p, c_void_p)), ("invalidated", CFUNCTYPE(None, c_void_p, c_void_p, c_uint64, c_uint32)),
-    ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)),
+    ("begin", CFUNCTYPE(c_int, c_void_p)), ("end", CFUNCTYPE(None, c_void_p)), ("plugin_loops", c_int32), ("reserved", c_int32),
 ]
 mps_device_info._fields_ = [
     ("struct_size", c_uint32), ("host_calls", c_int32), ("name", c_char_p), ("launches", c_int64), ("waits", c_int64),

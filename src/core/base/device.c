@@ -31,6 +31,9 @@ static void run_parts(void *user, int32_t parts, mps_part_fn body, void *argumen
     for (int32_t part = 0; part < parts; part++) body(argument, part);
 }
 
+static void *alloc_block(void *user, size_t bytes);
+static void release_block(void *user, void *block);
+
 mps_status mps__device_set(mps__device *d, const mps_device_ops *ops)
 {
     mps_device_ops copy = {0};
@@ -45,6 +48,7 @@ mps_status mps__device_set(mps__device *d, const mps_device_ops *ops)
     d->ops = copy;
     d->parallel = (mps_parallel){
         .struct_size = sizeof d->parallel, .threads = 1, .run = run_parts, .user = d};
+    d->memory = (mps_allocator){.alloc = alloc_block, .release = release_block, .user = d};
     return MPS_OK;
 }
 
@@ -148,11 +152,6 @@ static void release_block(void *user, void *block)
         d->block[k].data = NULL;
         return;
     }
-}
-
-mps_allocator mps__device_allocator(mps__device *d)
-{
-    return (mps_allocator){.alloc = alloc_block, .release = release_block, .user = d};
 }
 
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes)

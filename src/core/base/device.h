@@ -7,7 +7,7 @@
 #include "base.h"
 #include <mps/device.h>
 
-/* Maximum number of live blocks of mps__device_allocator(). */
+/* Maximum number of live blocks of mps__device.memory. */
 enum { MPS__DEVICE_BLOCKS = 128 };
 
 /* Device buffer that grows and is reused. */
@@ -21,6 +21,7 @@ typedef struct mps__device {
     mps_device_ops ops;    /* name NULL: no device */
     mps_device_info info;  /* of the step in progress */
     mps_parallel parallel; /* while calls run on the device */
+    mps_allocator memory;  /* device memory, with the sizes of its few blocks */
     /* of further launches: the device cancels them while it points to a non-zero number; NULL: all
      * run */
     const int64_t *cancel;
@@ -56,8 +57,6 @@ void mps__device_free(mps__device *d, void *block, size_t bytes);
  * buffer is empty. */
 void *mps__device_fit(mps__device *d, mps__device_block *block, size_t bytes);
 void mps__device_release(mps__device *d, mps__device_block *block);
-/* Device memory as an allocator that remembers the sizes of its few blocks. */
-mps_allocator mps__device_allocator(mps__device *d);
 void mps__device_upload(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_download(mps__device *d, void *to, const void *from, size_t bytes);
 void mps__device_clear(mps__device *d, void *to, size_t bytes);

@@ -69,7 +69,7 @@ mps_status mps__memory_attach(mps__memory *t, const mps_device_ops *ops)
     }
     mps__memory_free(t);
     t->device = device;
-    if (t->device.ops.name) t->device.parallel.user = &t->device;
+    if (t->device.ops.name) t->device.parallel.user = t->device.memory.user = &t->device;
     t->constant = constant;
     return MPS_OK;
 }

@@ -25,7 +25,7 @@ typedef struct mps__pass {
     bool with_ghosts;
     bool undeclared; /* it writes fields of particles that its uses do not declare */
     /* its loops access only the view and the arrays of its uses: they may run on a device */
-    bool flat;
+    bool device;
     int32_t use_count;
     const mps_use *uses;
     mps_status (*run)(mps_stage *s);

@@ -16,15 +16,25 @@ static mps_status verb_failed(mps__runner *h, const mps__call *call, double t)
 }
 
 /* Error text of an invalid value at particle i: the value, and what is allowed. */
-static mps_status left(const mps__runner *h, const mps_stage *s, const mps__call *call, int64_t i,
+static mps_status left(mps__runner *h, const mps_stage *s, const mps__call *call, int64_t i,
                        const char *what, const char *allowed)
 {
-    const double *x = s->view->x + i * s->view->dim;
+    if (h->memory.space == MPS__ON_DEVICE) mps__memory_sync_fields(&h->memory);
+    const double *x = h->particles->x + i * s->view->dim;
     return mps__fail(
         h->context, MPS_E_PLUGIN,
         "model '%s' at t = %.9g s left %s at particle %lld, (%g, %g, %g) m; must be %s", call->name,
-        s->view->t, what, (long long)s->view->id[i], x[0], x[1], s->view->dim == 3 ? x[2] : 0,
+        s->view->t, what, (long long)h->particles->id[i], x[0], x[1], s->view->dim == 3 ? x[2] : 0,
         allowed);
+}
+
+/* Copy a value of a channel from the memory space of the call to the host. */
+static void fetch_value(mps__runner *h, void *to, const void *from, size_t bytes)
+{
+    if (h->memory.space == MPS__ON_DEVICE)
+        mps__device_download(&h->memory.device, to, from, bytes);
+    else
+        memcpy(to, from, bytes);
 }
 
 /* Fields of the checks. */
@@ -40,14 +50,16 @@ MPS_ROW bool is_no_region(const check_fields *f, int64_t i)
 MPS__FIRST(bad_regions, is_no_region, check_fields)
 
 /* Later hooks select particles by region. */
-static mps_status check_regions(const mps__runner *h, const mps_stage *s, const mps__call *call)
+static mps_status check_regions(mps__runner *h, const mps_stage *s, const mps__call *call)
 {
     char what[32], allowed[32];
-    const int32_t *region = mps__channels_array(h->channels, h->particles, MPS__REGION);
+    const int32_t *region = mps__memory_array(&h->memory, MPS__REGION, h->memory.space);
+    int32_t bad = 0;
     const int64_t first = mps__first_run(h->parallel, &bad_regions, s->view->n,
                                          &(check_fields){.region = region});
     if (first == s->view->n) return MPS_OK;
-    snprintf(what, sizeof what, "region %d", (int)region[first]);
+    fetch_value(h, &bad, region + first, sizeof bad);
+    snprintf(what, sizeof what, "region %d", (int)bad);
     snprintf(allowed, sizeof allowed, "%d..%d", MPS_REGION_INNER, MPS_REGION_DRY);
     return left(h, s, call, first, what, allowed);
 }
@@ -67,15 +79,16 @@ MPS__FIRST(bad_densities, is_not_finite, check_fields)
 
 /* Every comparison with a non-finite number density is false: the free surface would be lost
  * without an error. */
-static mps_status check_number_density(const mps__runner *h, const mps_stage *s,
-                                       const mps__call *call)
+static mps_status check_number_density(mps__runner *h, const mps_stage *s, const mps__call *call)
 {
     char what[64];
-    const double *nd = mps__channels_array(h->channels, h->particles, MPS__NUMBER_DENSITY);
+    const double *nd = mps__memory_array(&h->memory, MPS__NUMBER_DENSITY, h->memory.space);
+    double bad = 0;
     const int64_t first = mps__first_run(h->parallel, &bad_densities, s->view->n,
                                          &(check_fields){.nd = nd});
     if (first == s->view->n) return MPS_OK;
-    snprintf(what, sizeof what, "the number density %g", nd[first]);
+    fetch_value(h, &bad, nd + first, sizeof bad);
+    snprintf(what, sizeof what, "the number density %g", bad);
     return left(h, s, call, first, what, "finite");
 }
 
@@ -109,7 +122,7 @@ static mps_status check_equation(const mps__runner *h, const mps_stage *s, const
     return MPS_OK;
 }
 
-static mps_status check_after(const mps__runner *h, const mps_stage *s, const mps__call *call)
+static mps_status check_after(mps__runner *h, const mps_stage *s, const mps__call *call)
 {
     if (s->hook == MPS_LIMIT && !(s->dt_limit > 0))
         return mps__fail(
@@ -242,13 +255,15 @@ static void begin_channels(mps__runner *h, const mps__call *call, int32_t space)
 
 /* ---- a device ---- */
 
-/* Memory space of a call. Verbs of plug-ins and passes that access the simulation run on the
- * host. */
+/* Memory space of a call: the device if the call and the device support it. */
 static int32_t space_of(const mps__runner *h, const mps__call *call)
 {
     if (!h->memory.open) return MPS__ON_HOST;
-    const bool flat = call->pass ? call->pass->flat : !mps__models_foreign(h->models, call->model);
-    return flat ? MPS__ON_DEVICE : MPS__ON_HOST;
+    const bool device = call->pass
+                            ? call->pass->device
+                            : call->verb->device && (h->memory.device.ops.plugin_loops ||
+                                                     !mps__models_foreign(h->models, call->model));
+    return device ? MPS__ON_DEVICE : MPS__ON_HOST;
 }
 
 /* Copy what a call reads to its memory space, also arrays that it writes only in part. Pair flux

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops, sums and scratch for verbs of models; the only place with these loops. Rows are owned
- * particles. */
+/* Loops, sums and scratch for verbs of models, and loops of solvers; the only place with these loops.
+ * Rows are owned particles, or the unknowns of an equation. */
 #include "runner.h"
 #include "sort.h"
 #include "terms.h"
+#include <mps/ppe.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -18,7 +19,7 @@ static mps__runner *host_of(const mps_stage *s)
 
 /* A loop or a sum over rows, passed to the parallel-for of the handle. */
 typedef struct job {
-    const mps__runner *h;
+    const mps__runner *h; /* NULL: a loop of a solver */
     const mps_view *v;
     const mps_rows *rows;
     const mps_sums *sums;
@@ -34,13 +35,22 @@ static void own_rows(void *argument, int64_t begin, int64_t end)
     k->rows->run(k->v, k->fields, begin, end);
 }
 
+/* Run a range without the particles of other ranks. */
+static void skip_ghosts(const job *k, mps_range_fn rows, void *argument, int64_t begin, int64_t end)
+{
+    if (k->h)
+        mps__ghosts_rows(k->h->ghosts, rows, argument, begin, end);
+    else
+        rows(argument, begin, end);
+}
+
 static void run_rows(void *argument, int64_t begin, int64_t end)
 {
     const job *k = argument;
-    if (k->h->with_ghosts)
+    if (k->h && k->h->with_ghosts)
         own_rows(argument, begin, end);
     else
-        mps__ghosts_rows(k->h->ghosts, own_rows, argument, begin, end);
+        skip_ghosts(k, own_rows, argument, begin, end);
 }
 
 /* Rows of one thread, and its partial sums. */
@@ -85,7 +95,7 @@ static void run_sums(void *argument, int64_t begin, int64_t end, mps_exact *sums
     const job *k = argument;
     part own = {.k = k, .sums = sums};
     (void)none;
-    mps__ghosts_rows(k->h->ghosts, sum_rows, &own, begin, end);
+    skip_ghosts(k, sum_rows, &own, begin, end);
 }
 
 static void raise_rows(void *argument, int64_t begin, int64_t end)
@@ -99,7 +109,7 @@ static void run_maxima(void *argument, int64_t begin, int64_t end, double *value
 {
     const job *k = argument;
     part own = {.k = k, .maxima = values};
-    mps__ghosts_rows(k->h->ghosts, raise_rows, &own, begin, end);
+    skip_ghosts(k, raise_rows, &own, begin, end);
 }
 
 /* ---- on a device ---- */
@@ -132,14 +142,6 @@ static const uint8_t *mask_of(const job *k, mps__device *d)
     return k->rows && k->h->with_ghosts ? NULL : mps__ghosts_seen(k->h->ghosts, d);
 }
 
-/* Source file of a loop of the library. Loops of plug-ins run on the host; those of older headers
- * have none. */
-static const char *file_of(const job *k)
-{
-    if (k->rows) return k->rows->struct_size >= sizeof *k->rows ? k->rows->file : "";
-    return k->sums->struct_size >= sizeof *k->sums ? k->sums->file : "";
-}
-
 /* Launch rows, and `count` sums or maxima, which are written to device memory if `to` is not
  * NULL. */
 static void launch(mps__device *d, const job *given, mps_exact *sums, double *maxima, void *to)
@@ -147,13 +149,15 @@ static void launch(mps__device *d, const job *given, mps_exact *sums, double *ma
     mps_view v = *given->v;
     job k = *given;
     const mps__runner *h = k.h;
-    mps__memory_loop_view((mps__memory *)&h->memory,
-                          h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
+    if (h)
+        mps__memory_loop_view((mps__memory *)&h->memory,
+                              h->model ? (int32_t)(h->model - h->models->on) : 0, &v);
     k.v = &v;
-    k.mask = mask_of(&k, d);
+    k.mask = h ? mask_of(&k, d) : NULL;
     mps_launch l = {.dim = v.dim,
                     .n = v.n,
-                    .file = file_of(&k),
+                    /* NOLINTNEXTLINE(clang-analyzer-core.NullDereference): rows or sums */
+                    .file = k.rows ? k.rows->file : k.sums->file,
                     .name = k.rows ? k.rows->name : k.sums->name,
                     .view = &v,
                     .fields = k.fields,
@@ -242,6 +246,65 @@ void mps__runner_max_deferred(mps__runner *h, const mps_view *v, int32_t count,
     for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
     mps__runner_max(h, v, count, raise, fields, maxima);
     then.run(then.owner, maxima);
+}
+
+/* ---- what solvers call ---- */
+
+/* At most the values of a message of mps_ppe_total(). */
+enum { PPE_VALUES = 4 };
+
+static mps_view view_of(const mps_ppe_problem *problem)
+{
+    return (mps_view){
+        .struct_size = sizeof(mps_view), .dim = problem->dim, .n = problem->n, .dp = problem->dp};
+}
+
+void mps_ppe_rows(const mps_ppe_problem *problem, const mps_rows *rows, const void *fields)
+{
+    const mps_view v = view_of(problem);
+    job k = {.v = &v, .rows = rows, .fields = fields};
+    mps__device *d = mps__device_of(problem->parallel);
+    if (d)
+        launch(d, &k, NULL, NULL, NULL);
+    else
+        mps_parallel_rows(problem->parallel, problem->n, run_rows, &k);
+}
+
+int mps_ppe_sum(const mps_ppe_problem *problem, int32_t count, const mps_sums *add,
+                const void *fields, double *sums)
+{
+    const mps_view v = view_of(problem);
+    job k = {.v = &v, .sums = add, .fields = fields, .count = count};
+    mps_exact sum[PPE_VALUES] = {{{0}, 0, 0}};
+    const mps_exact_values values = {.sums = count, .sum = sum};
+    mps__device *d = mps__device_of(problem->parallel);
+    if (count < 1 || count > PPE_VALUES) return 1;
+    if (d)
+        launch(d, &k, sum, NULL, NULL);
+    else
+        mps_exact_rows(problem->parallel, problem->n, MPS_PARALLEL_LEAST, run_sums, &k, &values);
+    double lost = d && d->failed; /* of any rank: all ranks return the same */
+    const int failed = mps_ppe_total(problem, &(mps_exact_values){count, 1, sum, &lost});
+    for (int32_t m = 0; m < count; m++) sums[m] = mps_exact_value(&sum[m]);
+    return failed || lost > 0;
+}
+
+int mps_ppe_max(const mps_ppe_problem *problem, int32_t count, const mps_sums *raise,
+                const void *fields, double *maxima)
+{
+    const mps_view v = view_of(problem);
+    job k = {.v = &v, .sums = raise, .fields = fields, .count = count, .raises = true};
+    mps__device *d = mps__device_of(problem->parallel);
+    if (count < 1 || count > PPE_VALUES) return 1;
+    for (int32_t m = 0; m < count; m++) maxima[m] = -INFINITY;
+    if (d)
+        launch(d, &k, NULL, maxima, NULL);
+    else
+        mps_parallel_max(problem->parallel, problem->n, count, run_maxima, &k, maxima);
+    mps_exact lost = {{0}, 0, 0};
+    mps_exact_add(&lost, 1, &(double){d && d->failed});
+    const int failed = mps_ppe_total(problem, &(mps_exact_values){1, count, &lost, maxima});
+    return failed || mps_exact_value(&lost) > 0;
 }
 
 /* ---- what verbs call ---- */

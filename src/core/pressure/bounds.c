@@ -159,7 +159,7 @@ static bool on_any_rank(const mps__ppe *e, bool on_this_rank)
     return any > 0;
 }
 
-/* Update the active set. @param seen  the result of a solver on a device, NaN: none @return whether
+/* Update the active set. @param seen  `reduced` of the hint of a solver, NaN: none @return whether
  * the set has changed */
 static bool choose(mps__bounds *b, const mps__ppe *e, double seen)
 {
@@ -180,16 +180,18 @@ static mps_status solve_active(mps__bounds *b, mps__solvers *solvers, mps__ppe *
                                const mps__effort *effort, mps_ppe_result *result)
 {
     mps_status status = MPS_OK;
-    solvers->hint = (mps__pcg_hint){
-        .owner = b, .seen = NAN, .doubt = e->device ? &e->counts_device->lacking : NULL};
-    if (b->any && e->device) solvers->hint.look = mps__bounds_look_device;
+    solvers->hint = (mps_ppe_hint){.struct_size = sizeof solvers->hint,
+                                   .unsolvable = e->device ? &e->counts_device->lacking : NULL,
+                                   .owner = b,
+                                   .reduced = NAN};
+    if (b->any && e->device) solvers->hint.reduce = mps__bounds_look_device;
     if (b->any && e->device)
         status = mps__bounds_fix_device(b, e);
     else if (b->any)
         status = fix_rows(b, e);
     if (status == MPS_OK)
         status = mps__solvers_solve_series(solvers, &e->problem, effort, e->p, result);
-    solvers->hint.look = NULL;
+    solvers->hint.reduce = NULL;
     if (b->any && e->device)
         mps__bounds_restore_device(b, e);
     else
@@ -227,7 +229,7 @@ mps_status mps__bounds_solve(mps__bounds *b, mps__solvers *solvers, mps__ppe *e,
         iterations += result->iterations;
         setup += result->setup_seconds;
         if (mps_ppe_halo(&e->problem, e->p)) return mps__ranks_status(e->ghosts->ranks);
-        const bool changed = status == MPS_OK && choose(b, e, solvers->hint.seen);
+        const bool changed = status == MPS_OK && choose(b, e, solvers->hint.reduced);
         again = status == MPS_OK && (!last || (changed && b->solves < SOLVES));
     }
     for (int64_t k = 0; k < b->count; k++)

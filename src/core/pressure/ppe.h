@@ -111,7 +111,7 @@ mps_status mps__ppe_fill(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t
 /* Then set the other arrays of the unknowns, with the old pressures as first guess; on the host in
  * e->spare and e->spare_x. If a component lacks a datum, an equation on a device must be copied to
  * the host for mps__ppe_close(): a solver on the device tests this before it begins
- * (mps__pcg_hint), others have to wait (levels.h). */
+ * (mps_ppe_hint), others have to wait (levels.h). */
 mps_status mps__ppe_note(mps__ppe *e, const mps_view *s, const mps__ppe_terms *t);
 /* Make an equation that lacks a datum solvable; on the host. */
 mps_status mps__ppe_close(mps__ppe *e, const mps_view *s);

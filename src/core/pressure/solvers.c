@@ -81,6 +81,25 @@ mps_status mps__solvers_register(mps__solvers *s, const mps_solver_ops *ops)
     return MPS_OK;
 }
 
+/* The fallback must solve what the preconditioner was selected for. The name becomes that of the
+ * registry. */
+static mps_status check_fallback(mps__solvers *s, mps_preconditioner_ops *pc)
+{
+    const int k = find(s->preconditioner_name, s->preconditioners, pc->fallback);
+    if (k < 0)
+        return unknown(s->context, "preconditioner", s->preconditioner_name, s->preconditioners,
+                       NULL, pc->fallback);
+    const mps_preconditioner_ops *other = &s->preconditioner[k];
+    MPS__CHECK(s->context,
+               (other->symmetric || !pc->symmetric) && (other->ranks || !pc->ranks) &&
+                   (other->device || !pc->device) && !(other->reach > pc->reach),
+               "the fallback '%s' of preconditioner '%s' needs its 'symmetric', 'ranks' and "
+               "'device', and at most its 'reach' of %g",
+               other->name, pc->name, pc->reach);
+    pc->fallback = other->name;
+    return MPS_OK;
+}
+
 mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preconditioner_ops *ops)
 {
     mps__context *c = s->context;
@@ -92,6 +111,7 @@ mps_status mps__solvers_register_preconditioner(mps__solvers *s, const mps_preco
     MPS__CHECK(c, strcmp(copy.name, "none") != 0, "a preconditioner cannot be called 'none'");
     MPS__CHECK(c, copy.create && copy.setup && copy.apply && copy.destroy,
                "preconditioner '%s' lacks create, setup, apply or destroy", copy.name);
+    if (copy.fallback) MPS__TRY(check_fallback(s, &copy));
     int k = s->preconditioners;
     mps__name_copy(s->preconditioner_name[k], MPS__NAME_SIZE, copy.name);
     copy.struct_size = sizeof copy;
@@ -130,12 +150,12 @@ static mps_status choose(mps__solvers *s, const char *solver, const char *precon
 static void discard(mps__solvers *s)
 {
     const mps_allocator *allocator = &s->context->allocator;
-    if (s->spare_self) mps__preconditioner_jacobi.destroy(allocator, s->spare_self);
-    s->spare_self = NULL;
+    if (s->fallback_made) s->fallback->destroy(allocator, s->fallback_self);
+    s->fallback_made = false;
     if (s->use) s->use->destroy(allocator, s->use_self);
     if (s->pc) s->pc->destroy(allocator, s->pc_self);
     s->use = NULL;
-    s->pc = NULL;
+    s->pc = s->fallback = NULL;
     s->use_self = s->pc_self = NULL;
 }
 
@@ -155,28 +175,27 @@ mps_status mps__solvers_use(mps__solvers *s, const char *solver, const char *pre
     discard(s);
     s->use = ops;
     s->pc = pc;
+    if (pc && pc->fallback)
+        s->fallback =
+            &s->preconditioner[find(s->preconditioner_name, s->preconditioners, pc->fallback)];
     s->use_self = self;
     s->pc_self = pc_self;
     return MPS_OK;
 }
 
-static void warn(void *user, const char *text)
-{
-    mps__log(user, MPS_LOG_WARNING, "%s", text);
-}
-
 mps_status mps__solvers_init(mps__solvers *s, mps__context *context)
 {
-    *s = (mps__solvers){.context = context, .log = {warn, context}, .limits = default_limits};
+    *s = (mps__solvers){.context = context, .limits = default_limits};
     for (int k = 0; mps__builtin_solvers[k]; k++) {
         mps_solver_ops ops = *mps__builtin_solvers[k];
-        ops.user = &s->log;
+        ops.user = context;
         MPS__TRY(mps__solvers_register(s, &ops));
     }
-    s->built_in = s->solvers;
+    s->built_in_solvers = s->solvers;
     for (int k = 0; mps__builtin_preconditioners[k]; k++)
         MPS__TRY(mps__solvers_register_preconditioner(s, mps__builtin_preconditioners[k]));
-    return mps__solvers_use(s, "sundials.pcg", NULL);
+    s->built_in_preconditioners = s->preconditioners;
+    return mps__solvers_use(s, s->solver_name[0], NULL);
 }
 
 void mps__solvers_free(mps__solvers *s)
@@ -245,10 +264,15 @@ static mps_status status_of(int32_t reason)
 static mps_status verify(mps__solvers *s, const mps_ppe_problem *problem, const double *p,
                          mps_ppe_result *result)
 {
-    double *work = mps__alloc(s->context, problem->n, sizeof *work);
+    const mps_allocator *device = problem->device;
+    double *work = device ? device->alloc(device->user, (size_t)(problem->n + 1) * sizeof *work)
+                          : mps__alloc(s->context, problem->n, sizeof *work);
     if (!work) return MPS_E_NOMEM;
     mps_ppe_check(problem, p, work, result);
-    mps__free(s->context, work);
+    if (device)
+        device->release(device->user, work);
+    else
+        mps__free(s->context, work);
     if (result->residual <= 10 * problem->tolerance) return MPS_OK;
     result->reason = MPS_PPE_MAX_ITERATIONS;
     return MPS_W_NOT_CONVERGED;
@@ -284,26 +308,33 @@ static void run_solver(const mps__solvers *s, const mps_ppe_problem *problem,
     if (!(result->setup_seconds >= 0) || isinf(result->setup_seconds)) result->setup_seconds = 0;
 }
 
-/* auxgrid is the default for its speed, and not proved for every matrix of a plug-in: if it fails,
- * solve again with jacobi. */
+/* Create the state of the fallback, once. False: out of memory. */
+static bool make_fallback(mps__solvers *s)
+{
+    void *self = s->fallback->user;
+    if (s->fallback_made) return true;
+    if (s->fallback->create(&s->context->allocator, &self)) return false;
+    s->fallback_self = self;
+    s->fallback_made = true;
+    return true;
+}
+
 void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                       mps_ppe_result *result)
 {
-    const mps_preconditioner_ops *spare = &mps__preconditioner_jacobi;
+    const mps_preconditioner_ops *spare = s->fallback;
     mps_ppe_result second = {.struct_size = sizeof second};
     mps_preconditioner_ops pc;
     if (s->pc) {
         pc = *s->pc;
         pc.setup = setup_unless_ready;
         pc.apply = apply_in_use;
+        pc.setup_async = pc.setup_async || (s->again && s->ready);
     }
-    s->hint.ready = (s->again && s->ready) || (s->pc && s->pc->create == spare->create);
     run_solver(s, problem, s->pc ? &pc : NULL, s->pc ? s : NULL, p, result);
     const bool failed = result->reason == MPS_PPE_INDEFINITE || result->reason == MPS_PPE_BREAKDOWN;
-    if (!failed || !s->pc || strcmp(s->pc->name, mps__preconditioner_auxgrid.name) != 0) return;
-    if (!s->spare_self && spare->create(&s->context->allocator, &s->spare_self)) return;
-    s->hint.ready = true;
-    run_solver(s, problem, spare, s->spare_self, p, &second);
+    if (!failed || !spare || !make_fallback(s)) return;
+    run_solver(s, problem, spare, s->fallback_self, p, &second);
     mps__log(s->context, MPS_LOG_WARNING,
              "preconditioner '%s' %s after %d iterations; with '%s' the solver %s", s->pc->name,
              reason_text(result->reason), result->iterations, spare->name,
@@ -336,23 +367,24 @@ static mps_status report(const mps__solvers *s, const mps_ppe_problem *problem,
 mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,
                                      const mps__effort *effort, double *p, mps_ppe_result *result)
 {
-    mps_ppe_problem limited = *problem;
-    limited.tolerance = effort->looser * s->limits.tolerance;
-    limited.divergence = effort->looser * s->limits.divergence;
+    mps_ppe_problem *limited = &s->problem;
+    *limited = *problem;
+    limited->tolerance = effort->looser * s->limits.tolerance;
+    limited->divergence = effort->looser * s->limits.divergence;
     s->again = effort->again;
     s->ready = s->ready && effort->again;
     s->sent = s->sent && effort->again;
-    limited.max_iterations = s->limits.max_iterations;
+    limited->max_iterations = s->limits.max_iterations;
     *result = (mps_ppe_result){.struct_size = sizeof *result};
     if ((problem->ranks ? problem->ranks->rows : problem->n) == 0) return MPS_OK;
-    if (mps__solvers_on_device(s, &limited))
-        MPS__TRY(mps__solvers_solve_device(s, &limited, p, result));
+    if (mps__solvers_on_device(s, limited))
+        MPS__TRY(mps__solvers_solve_device(s, p, result));
     else
-        mps__solvers_run(s, &limited, p, result);
+        mps__solvers_run(s, limited, p, result);
     if (s->hint.refused) return MPS_E_SOLVER;
     mps_status status = status_of(result->reason);
     /* before the reduction over all ranks: they are in another call */
-    if (result->reason == MPS_PPE_NOMEM) return report(s, &limited, result, status);
+    if (result->reason == MPS_PPE_NOMEM) return report(s, limited, result, status);
     /* a finite residual implies finite pressures */
     double poison = mps__device_of(problem->parallel) ? !isfinite(result->residual)
                                                       : !mps__finite(p, problem->n);
@@ -361,11 +393,11 @@ mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *pro
         result->reason = MPS_PPE_NAN;
         status = MPS_E_SOLVER;
     }
-    if (status == MPS_OK && s->use >= &s->solver[s->built_in]) {
-        status = verify(s, &limited, p, result);
+    if (status == MPS_OK && s->use >= &s->solver[s->built_in_solvers]) {
+        status = verify(s, limited, p, result);
         if (status != MPS_W_NOT_CONVERGED) return status;
     }
-    return report(s, &limited, result, status);
+    return report(s, limited, result, status);
 }
 
 /* ---- for plug-ins ---- */

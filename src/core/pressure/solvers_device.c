@@ -13,27 +13,19 @@ typedef struct array {
     bool constant;
 } array;
 
-static bool is_jacobi(const mps_preconditioner_ops *pc)
-{
-    return pc->create == mps__preconditioner_jacobi.create;
-}
-
-static bool is_auxgrid(const mps_preconditioner_ops *pc)
-{
-    return pc->create == mps__preconditioner_auxgrid.create;
-}
-
 bool mps__solvers_support_device(const mps__solvers *s)
 {
-    return s->use->create == mps__solver_pcg.create &&
-           (!s->pc || is_jacobi(s->pc) || is_auxgrid(s->pc));
+    const bool plugin = s->use >= &s->solver[s->built_in_solvers] ||
+                        (s->pc && s->pc >= &s->preconditioner[s->built_in_preconditioners]);
+    return s->device && s->use->device && (!s->pc || s->pc->device) &&
+           (!plugin || s->device->ops.plugin_loops);
 }
 
 bool mps__solvers_on_device(const mps__solvers *s, const mps_ppe_problem *e)
 {
     /* the halo exchange is in the memory space of the equation */
     const bool known = mps__solvers_support_device(s) && (!e->ranks || mps__device_of(e->parallel));
-    return s->device && known && !e->component && !e->law && (e->n > 0 || e->ranks);
+    return known && !e->component && !e->law && (e->n > 0 || e->ranks);
 }
 
 /* @param on_device  out: the equation with device arrays
@@ -74,32 +66,37 @@ static mps_status send(mps__solvers *s, const mps_ppe_problem *e, const double *
     on_device->x = (const double *)(void *)(buffer + begin[POSITION]);
     on_device->shift = (const double *)(void *)(buffer + begin[SHIFT]);
     on_device->parallel = &s->device->parallel;
+    on_device->device = &s->device->memory;
     *q = (double *)(void *)(buffer + begin[PRESSURE]);
     return MPS_OK;
 }
 
-mps_status mps__solvers_solve_device(mps__solvers *s, const mps_ppe_problem *e, double *p,
-                                     mps_ppe_result *result)
+mps_status mps__solvers_solve_device(mps__solvers *s, double *p, mps_ppe_result *result)
 {
-    mps_ppe_problem on_device;
+    mps_ppe_problem *e = &s->problem;
     double *q;
-    mps__pcg_expect(s->use_self, &s->hint);
     if (mps__device_of(e->parallel)) {
+        e->device = &s->device->memory;
+        e->hint = e->ranks ? NULL : &s->hint;
         mps__solvers_run(s, e, p, result);
         return mps__device_status(s->device);
     }
-    MPS__TRY(send(s, e, p, &on_device, &q));
-    mps__solvers_run(s, &on_device, q, result);
+    MPS__TRY(send(s, e, p, &s->sent_problem, &q));
+    mps__solvers_run(s, &s->sent_problem, q, result);
     mps__device_download(s->device, p, q, (size_t)e->n * sizeof *p);
     return mps__device_status(s->device);
 }
 
+static void release_preconditioner(const mps_preconditioner_ops *pc, void *self)
+{
+    if (pc && pc->release_device) pc->release_device(self);
+}
+
 void mps__solvers_release_device(mps__solvers *s, mps__device *d)
 {
-    if (s->use && s->use->create == mps__solver_pcg.create) mps__pcg_release_device(s->use_self);
-    if (s->pc && is_jacobi(s->pc)) mps__jacobi_release_device(s->pc_self);
-    if (s->pc && is_auxgrid(s->pc)) mps__auxgrid_release_device(s->pc_self);
-    if (s->spare_self) mps__jacobi_release_device(s->spare_self);
+    if (s->use && s->use->release_device) s->use->release_device(s->use_self);
+    release_preconditioner(s->pc, s->pc_self);
+    if (s->fallback_made) release_preconditioner(s->fallback, s->fallback_self);
     mps__device_release(d, &s->buffer);
     s->sent = false;
     s->device = NULL;

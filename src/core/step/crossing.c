@@ -153,7 +153,7 @@ const mps__pass mps__pass_crossing = {.name = "crossing",
                                       .hook = MPS_SHIFT,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_CORRECT,
-                                      .flat = true,
+                                      .device = true,
                                       .use_count = 2,
                                       .uses = uses,
                                       .run = find_crossing_time};

@@ -89,7 +89,7 @@ const mps__pass mps__pass_equation = {.name = "equation",
                                       .hook = MPS_SOURCE,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_OPERATORS,
-                                      .flat = true,
+                                      .device = true,
                                       .use_count = 2,
                                       .uses = equation_uses,
                                       .run = close_equation};
@@ -131,7 +131,7 @@ const mps__pass mps__pass_matrix = {.name = "matrix",
                                     .hook = MPS_SOURCE,
                                     .place = MPS__AFTER_MODELS,
                                     .stage = MPS_STAGE_PPE_SETUP,
-                                    .flat = true,
+                                    .device = true,
                                     .use_count = sizeof matrix_uses / sizeof matrix_uses[0],
                                     .uses = matrix_uses,
                                     .run = fill_matrix};
@@ -152,7 +152,7 @@ const mps__pass mps__pass_unknowns = {.name = "unknowns",
                                       .hook = MPS_SOURCE,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_PPE_SETUP,
-                                      .flat = true,
+                                      .device = true,
                                       .use_count = 3,
                                       .uses = unknown_uses,
                                       .run = note_unknowns};
@@ -245,7 +245,7 @@ static void log_host(const mps__step *q)
     char why[2 * MPS__NAME_SIZE + 40] = "";
     if (t->logged_solution == w->runner.plan.changes) return;
     if (q->load.what == MPS_LOAD_MASS)
-        snprintf(why, sizeof why, "the added mass is asked for");
+        snprintf(why, sizeof why, "the added mass is requested");
     else if (!mps__solvers_support_device(s))
         snprintf(why, sizeof why, "solver '%s' with preconditioner '%s'", s->use->name,
                  s->pc ? s->pc->name : "none");
@@ -258,8 +258,8 @@ static void log_host(const mps__step *q)
 }
 
 /* Choose the memory space of the solution. On the host: for a solver without device loops, for the
- * added mass, and if a component lacks a pressure datum. On one rank the solver tests the latter
- * itself; on many it waits for each reduction anyway, so the test is a separate one. */
+ * added mass, and if a component lacks a pressure datum. On one rank a solver with hints tests
+ * the latter itself; on many it waits for each reduction anyway, so the test is a separate one. */
 static mps_status choose_space(const mps__step *q, bool *on_host)
 {
     mps__world *w = q->w;
@@ -268,7 +268,7 @@ static mps_status choose_space(const mps__step *q, bool *on_host)
     if (q->load.what == MPS_LOAD_MASS || !mps__solvers_on_device(&w->solvers, &w->ppe.problem)) {
         log_host(q);
         *on_host = true;
-    } else if (!mps__ranks_many(&w->ranks)) {
+    } else if (!mps__ranks_many(&w->ranks) && w->solvers.use->hint) {
         return MPS_OK;
     }
     MPS__TRY(mps__levels_wait(&w->ppe));
@@ -301,7 +301,7 @@ const mps__pass mps__pass_solve = {.name = "solve",
                                    .hook = MPS_SOURCE,
                                    .place = MPS__AFTER_MODELS,
                                    .stage = MPS_STAGE_PPE_SOLVE,
-                                   .flat = true,
+                                   .device = true,
                                    .use_count = 4,
                                    .uses = solve_uses,
                                    .run = solve};
@@ -322,7 +322,7 @@ const mps__pass mps__pass_pressures = {.name = "pressures",
                                        .hook = MPS_SOURCE,
                                        .place = MPS__AFTER_MODELS,
                                        .stage = MPS_STAGE_PPE_SOLVE,
-                                       .flat = true,
+                                       .device = true,
                                        .use_count = 4,
                                        .uses = pressure_uses,
                                        .run = scatter_pressures};

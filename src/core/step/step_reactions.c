@@ -81,5 +81,5 @@ const mps__pass mps__pass_book_reactions = {.name = "book_reactions",
                                             .hook = MPS_VELOCITY,
                                             .place = MPS__AFTER_MODELS,
                                             .stage = MPS_STAGE_CORRECT,
-                                            .flat = true,
+                                            .device = true,
                                             .run = book_reactions};

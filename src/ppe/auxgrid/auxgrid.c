@@ -77,14 +77,21 @@ static int build_grids(mps__grid *g, const mps_ppe_problem *problem, const mps__
     return mps__grid_many(g) ? mps__grid_divide(g) : 0;
 }
 
+static void release_device(void *self)
+{
+    auxgrid *a = self;
+    if (a->on_device.device) mps__grid_release(&a->on_device);
+    a->on_device = (mps__grid){.levels = 0};
+}
+
 /* The grid in the memory space of the equation. */
 static mps__grid *grid_for(auxgrid *a, const mps_ppe_problem *problem)
 {
     mps__device *d = mps__device_of(problem->parallel);
     if (!d) return &a->on_host;
     if (a->on_device.device != d) {
-        mps__auxgrid_release_device(a);
-        a->on_device = (mps__grid){.allocator = mps__device_allocator(d),
+        release_device(a);
+        a->on_device = (mps__grid){.allocator = d->memory,
                                    .host = a->on_host.allocator,
                                    .device = d,
                                    .ranks.whole = INT64_MAX};
@@ -139,18 +146,11 @@ static int apply(void *self, const double *r, double *z)
     return 0;
 }
 
-void mps__auxgrid_release_device(void *self)
-{
-    auxgrid *a = self;
-    if (a->on_device.device) mps__grid_release(&a->on_device);
-    a->on_device = (mps__grid){.levels = 0};
-}
-
 static void destroy(const mps_allocator *allocator, void *self)
 {
     auxgrid *a = self;
     if (!a) return;
-    mps__auxgrid_release_device(a);
+    release_device(a);
     mps__grid_release(&a->on_host);
     mps__release(allocator, a);
 }
@@ -166,5 +166,8 @@ const mps_preconditioner_ops mps__preconditioner_auxgrid = {
     .destroy = destroy,
     .help = "Multigrid cycle on auxiliary grids; the fastest for large systems",
     .ranks = 1,
+    .device = 1,
+    .release_device = release_device,
+    .fallback = "jacobi", /* fast, and not proved for every matrix of a plug-in */
     .reach = 2.3, /* from the centre of a cell to its corners; the largest is sqrt(3) 1.25 */
 };

@@ -116,6 +116,11 @@ typedef struct mps_device_ops {
      *  when the handle is destroyed, or on many ranks when mps_sim_device_set() fails because the
      *  device of another rank failed. */
     void (*end)(void *self);
+    /** 1: it runs loops of plug-ins too. 0: it has the loops of the library only, so that models,
+     *  solvers and preconditioners of plug-ins run on the host; default 0 */
+    int32_t plugin_loops;
+    /** Kept 0. */
+    int32_t reserved;
 } mps_device_ops;
 
 /** Counters of a device: of the last successful step and of field downloads since then. */
@@ -144,9 +149,10 @@ typedef struct mps_device_info {
 
 /** Run the steps of this handle on a device from now on; NULL: on the host. A pass of the step
  *  without loops for devices runs on the host, with copies of the arrays that it reads and writes;
- *  the log names it once. Verbs of models outside the library always run on the host. With a kernel
- *  of the user, mps_kernel_custom(), the whole step runs on the host. Results are bitwise the same
- *  on host and device.
+ *  the log names it once. Verbs of plug-ins run on the device if mps_verb.device and
+ *  mps_device_ops.plugin_loops are 1, otherwise on the host. With a kernel of the user,
+ *  mps_kernel_custom(), the whole step runs on the host. Results are bitwise the same on host and
+ *  device.
  *
  *  After a step the fields of the particles remain on the device. A lease, a probe, a frame or a
  *  checkpoint downloads the fields that it needs and waits for them. If the device fails in this
@@ -162,8 +168,9 @@ typedef struct mps_device_info {
  *
  *  On many ranks the call is collective: every rank has its own device, or no rank has one. If the
  *  call fails on one rank, it fails on all ranks, and all ranks run on the host. Neighbours are
- *  searched on the host. `sundials.pcg` with `auxgrid`, `jacobi` or no preconditioner solves the
- *  pressure equation on the devices; all other solvers run on the host.
+ *  searched on the host. Solvers and preconditioners with `device` (<mps/ppe.h>) solve the pressure
+ *  equation on the devices: `sundials.pcg` with `auxgrid`, `jacobi` or no preconditioner, and
+ *  plug-ins if mps_device_ops.plugin_loops is 1. All others run on the host.
  *  @return MPS_E_ARG (which entry, and what is allowed; some ranks have a device, others none),
  *  MPS_E_BUSY (a lease is open), MPS_E_NOMEM, MPS_E_PLUGIN (the device does not open, or the fields
  *  cannot be downloaded from the previous device), MPS_E_RANKS; on one rank the handle is unchanged

@@ -2,27 +2,27 @@
 /** @file model.h  Plug-in interface of models: forces, walls, free surface, source, gradient, ...
  *
  *  A model is a table: name, help, settings, the channels that it provides and its verbs. A channel
- *  is a named array with a value per particle. A hook is a phase of the step. A verb is a callback
- *  with its hook and the channels that it reads and writes; it gets these arrays only. The library
- *  allocates, clears, permutes, saves and frees channels, and it runs all loops over particles.
- *  Built-in models use this interface only.
+ *  is a named array with a value per particle. A hook is a phase of the step. A verb is a callback;
+ *  it declares its hook and the channels that it reads and writes, and gets only these arrays. The
+ *  library allocates, clears, permutes, saves and frees channels, and it runs all loops over
+ *  particles. Built-in models use only this interface.
  *
- *  Notation: n particles, dim = 2 or 3; rows are particles in their current order.
+ *  Notation: n particles, dim = 2 or 3; row i is particle i of the current order.
  *
  *  Order: hooks run in the order of MPS_POPULATE .. MPS_SHIFT. Within a hook a verb that writes a
- *  channel runs before verbs that change it, and these run before verbs that only read it. An
- *  `after` or `before` of a verb takes precedence over this; otherwise the order of registration
- *  holds. mps_verb_info_get() returns the resulting order. A cycle of verbs fails the step with
- *  MPS_E_STATE and the names of their models.
+ *  channel runs before verbs that change it, and these run before verbs that only read it. `after`
+ *  and `before` of a verb take precedence over this order. If neither decides, the order of
+ *  registration holds. mps_verb_info_get() returns the resulting order. If verbs wait for each
+ *  other in a cycle, the step fails with MPS_E_STATE and the names of two of their models.
  *
  *  Channels are resolved at the beginning of the first step after a change of models. This step
- *  fails with MPS_E_STATE if no active model provides a channel, or if its access is not allowed in
- *  this hook.
+ *  fails with MPS_E_STATE if a verb uses a channel that no active model provides, or if the channel
+ *  does not allow this access in the hook of the verb.
  *
  *  Optional channels that built-in models use if a model provides them:
  *    "viscosity" [Pa s], 1 number, MPS_LIFE_STEP: "viscosity.laplacian" and "viscosity.pair" use it
- *    instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control uses the
- *    viscosities of the phases only: limit the step in MPS_LIMIT.
+ *    instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control uses only the
+ *    viscosities of the phases, so such a model also limits the step, in MPS_LIMIT.
  *
  *  Tutorial: docs/tutorials/your_own_model.md. The package has a conformance kit, model_kit.h,
  *  which runs a model and reports the rules that it violates. */
@@ -36,18 +36,18 @@ MPS_BEGIN_DECLS
 /** Version of this interface, for mps_model_ops.api: it fixes the layout of all tables below. */
 #define MPS_MODEL_API 1u
 
-/** How a verb uses a channel: a sum of these. READ + WRITE changes values. */
+/** How a verb uses a channel: a sum of these values. */
 enum {
     /** Reads the values of its own row. */
     MPS_USE_READ = 1,
     /** Reads values of neighbours within the far radius too. Implies MPS_USE_READ. A loop that
-     *  reads a channel at neighbours must not write it: write a workspace array first, and the
-     *  channel in a second loop. */
+     *  reads a channel at neighbours must not write it: write a workspace array first, and copy it
+     *  to the channel in a second loop. */
     MPS_USE_NEIGHBOURS = 2,
     /** Writes values of its own row. Without MPS_USE_READ the previous values must not be read.
      *  Rows that are not written keep their values. */
     MPS_USE_WRITE = 4,
-    /** Reads and writes its own row. */
+    /** MPS_USE_READ + MPS_USE_WRITE: reads and writes values of its own row. */
     MPS_USE_CHANGE = 5,
     /** The channel is optional: its array is NULL if no active model provides it. */
     MPS_USE_OPTIONAL = 8,
@@ -71,17 +71,17 @@ typedef struct mps_use {
 enum {
     /** From the beginning of MPS_MOTION to the end of the step. */
     MPS_LIFE_STEP = 0,
-    /** As long as its particle: it is permuted and migrated with the particle, saved by
-     *  checkpoints, restored after a failed step, and is a field for mps_lease_begin(), e.g. to
-     *  write initial values after mps_model_use(). Verbs of all hooks may read it; verbs of all
-     *  hooks except MPS_POPULATE may write it. If its model is switched off, the field remains with
-     *  its values. Real numbers only. */
+    /** As long as its particle. The library permutes and migrates the values with the particle,
+     *  saves them in checkpoints and restores them after a failed step. The channel is a field, so
+     *  mps_lease_begin() gives access to it, e.g. to write initial values after mps_model_use().
+     *  Verbs of all hooks may read it; verbs of all hooks except MPS_POPULATE may write it. If its
+     *  model is switched off, the field keeps its values. Real numbers only. */
     MPS_LIFE_PARTICLE = 1
 };
 
-/** Components of a vector and of a matrix: dim and dim*dim numbers a particle. A scalar is one
- *  number for all particles: its array has one entry, which a verb reads and writes outside of
- *  loops; all ranks must write the same value. */
+/** Components of a channel. MPS_VECTOR: dim numbers per particle. MPS_MATRIX: dim*dim numbers per
+ *  particle. MPS_SCALAR: one number for all particles. Its array has one entry, which a verb reads
+ *  and writes outside of loops; all ranks must write the same value. */
 enum { MPS_VECTOR = -1, MPS_MATRIX = -2, MPS_SCALAR = -3 };
 
 /** A named array with a value per particle that a model provides. Two models may provide the same
@@ -100,8 +100,8 @@ typedef struct mps_channel {
     int32_t type;
     /** MPS_LIFE_... */
     int32_t life;
-    /** Value at the beginning of a step (MPS_LIFE_PARTICLE: of a new particle). For a matrix: value
-     *  of the diagonal; the other entries are 0. */
+    /** MPS_LIFE_STEP: value at the beginning of each step. MPS_LIFE_PARTICLE: value of a new
+     *  particle. For a matrix: value of the diagonal; the other entries are 0. */
     double initial;
 } mps_channel;
 
@@ -131,12 +131,22 @@ typedef struct mps_verb {
     int32_t use_count;
     /** Channels that it uses. */
     const mps_use *uses;
-    /** NULL, or a slot, e.g. "source": the verb runs after that model. "*": after all others. */
+    /** NULL, or a slot, e.g. "source": the verb runs after the verbs of the model in that slot at
+     *  the same hook. "*": after all others. */
     const char *after;
-    /** NULL, or a slot: the verb runs before that model. "*": before all others. */
+    /** NULL, or a slot: the verb runs before the verbs of the model in that slot at the same hook.
+     *  "*": before all others. */
     const char *before;
     /** The action. @return 0, or non-zero after mps_stage_fail() */
     int (*run)(mps_stage *s);
+    /** 1: the verb runs on the device of the handle, if it has one (<mps/device.h>). Then the
+     *  arrays of mps_stage.data, of workspace and of the view are in device memory: the verb reads
+     *  and writes them in loops of mps_stage_rows(), mps_stage_sum() and mps_stage_max() only.
+     *  Scalars, and settings outside of loops, are in host memory. 0: it runs on the host; the
+     *  library copies the arrays. Ignored in MPS_POPULATE, which is on the host. */
+    int32_t device;
+    /** Kept 0. */
+    int32_t reserved;
 } mps_verb;
 
 /** A model. All strings and tables must outlive the handle. */
@@ -166,19 +176,20 @@ typedef struct mps_model_ops {
      *  Checkpoints do not save the state: data that later steps depend on must be in channels of
      *  MPS_LIFE_PARTICLE or in numbers of mps_stage_state(). */
     int (*create)(const mps_allocator *allocator, void **self);
-    /** Frees the state of create; required with create. */
+    /** Frees the state of create; required if create is not NULL. */
     void (*destroy)(const mps_allocator *allocator, void *self);
-    /** Data of the caller; without create the verbs get it as s->self. */
+    /** Data of the caller. If create is NULL, verbs get it as s->self. */
     void *user;
     /** NULL, or the largest distance at which its verbs read particles, if it exceeds the far
      *  radius [m].
-     *  @param setting  values of the settings in the order of `settings` @param dp  spacing [m] */
+     *  @param setting  values of the settings in the order of `settings`
+     *  @param dp  particle spacing [m] */
     double (*reach)(const double *setting, double dp);
-    /** [part_count] names of the solids without particles that it represents, see mps/reaction.h */
+    /** [part_count] names of solids without particles whose forces it reports: mps/reaction.h */
     const char *const *parts;
-    /** NULL, or validate the numbers of mps_stage_state() in a checkpoint, which another build of
-     *  the model may have written or which may be manipulated. Non-zero: the checkpoint is refused
-     *  with `why`, and the simulation is unchanged.
+    /** NULL, or validate the numbers of mps_stage_state() in a checkpoint: another build of the
+     *  model may have written them, or the file may be manipulated. Non-zero: the checkpoint is
+     *  refused with `why`, and the simulation is unchanged.
      *  @param numbers  [count], finite @param why  [size] out: the reason, one line */
     int (*check)(const double *numbers, int64_t count, char *why, size_t size);
 } mps_model_ops;

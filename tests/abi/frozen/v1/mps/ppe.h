@@ -4,14 +4,19 @@
  *  The system is A p = b: row i is sum_j k_ij (p_i - p_j) + s_i p_i = b_i with k_ij = k_ji, s_i >=
  *  0. A is symmetric positive (semi-)definite for the default models. Rows of a gas may be
  *  nonlinear: A p + gas (f(p) - p) = b, f by mps_ppe_law(). A holds their linear part, so gas_i <=
- *  s_i. Built-in solvers and preconditioners use this interface too. Only the built-in ones that
- *  mps_sim_device_set() names solve equations on a device (<mps/device.h>). */
+ *  s_i. Built-in solvers and preconditioners use this interface too.
+ *
+ *  On a device (<mps/device.h>) a solver and a preconditioner with `device` solve equations without
+ *  singular components and without nonlinear rows. Then `mps_ppe_problem.device` is not NULL: the
+ *  arrays of the equation and all vectors are in device memory, and only loops read and write them:
+ *  mps_ppe_rows(), mps_ppe_sum(), mps_ppe_max(). The same loops run on the host. */
 #ifndef MPS_PPE_H
 #define MPS_PPE_H
 
 #include <mps/exact.h>
 #include <mps/parallel.h>
 #include <mps/ranks.h>
+#include <mps/stage.h>
 #include <mps/types.h>
 
 MPS_BEGIN_DECLS
@@ -63,6 +68,26 @@ typedef struct mps_ppe_ranks {
     void *host;
 } mps_ppe_ranks;
 
+/** Facts about an equation on a device that let a solver wait for the device less often. Owned by
+ *  the library. */
+typedef struct mps_ppe_hint {
+    /** sizeof(mps_ppe_hint) of the library */
+    uint32_t struct_size;
+    /** out: 1: the solver has not iterated because of `unsolvable`, and returns MPS_PPE_NAN. 0 on
+     *  entry. */
+    int32_t refused;
+    /** NULL, or a number in device memory, which the host does not know yet. If it is above
+     *  -INFINITY, the equation must not be solved. */
+    const double *unsolvable;
+    /** NULL, or queue a reduction over the pressures p to one number in device memory. A solver may
+     *  call it for other than the final pressures too. */
+    void (*reduce)(void *owner, double *to);
+    /** First argument of `reduce`. */
+    void *owner;
+    /** out: the number of `reduce` for the final pressures; NaN: not computed. NaN on entry. */
+    double reduced;
+} mps_ppe_hint;
+
 /** One pressure equation, assembled by the library; all arrays are borrowed for the call. */
 typedef struct mps_ppe_problem {
     /** sizeof(mps_ppe_problem) of the library */
@@ -111,6 +136,12 @@ typedef struct mps_ppe_problem {
     /** NULL: this rank has all rows. Otherwise vectors that are multiplied by the matrix need a
      *  capacity of n + ghosts values. */
     const mps_ppe_ranks *ranks;
+    /** NULL: the arrays are in host memory. Otherwise the allocator of the device memory in which
+     *  the arrays are; the host does not dereference its addresses. Valid until the state has
+     *  released its device memory; at most 128 blocks of a handle at the same time. */
+    const mps_allocator *device;
+    /** NULL, or facts about the equation, for a solver with `hint`. */
+    mps_ppe_hint *hint;
 } mps_ppe_problem;
 
 /** Halo exchange of x at ghost columns; does nothing if this rank has all rows.
@@ -132,6 +163,24 @@ static inline int mps_ppe_reduce(const mps_ppe_problem *problem, int32_t count, 
 /** Allreduce of sums and maxima over rows in one message, at most 4 of each. In: over the rows of
  *  this rank; out: over the rows of all ranks. @return as mps_ppe_halo() */
 MPS_API int mps_ppe_total(const mps_ppe_problem *problem, const mps_exact_values *values);
+
+/** Run a loop over the unknowns, in the memory space of the arrays of the equation. The view has
+ *  dim, n and dp; it has no arrays. On a device the call does not wait.
+ *  @param rows    defined by MPS_ROWS(): row i writes entries of row i only
+ *  @param fields  numbers and arrays, no pointers to other structs: rows->bytes bytes, copied */
+MPS_API void mps_ppe_rows(const mps_ppe_problem *problem, const mps_rows *rows, const void *fields);
+
+/** Sums over the unknowns of all ranks, with the same bytes for any number of threads and ranks,
+ *  and on a device (mps/exact.h). On a device the call waits for the result.
+ *  @param count  1..4 @param add  defined by MPS_SUMS() @param sums  [count] out
+ *  @return 0, or non-zero: another count, the device or another rank failed */
+MPS_API int mps_ppe_sum(const mps_ppe_problem *problem, int32_t count, const mps_sums *add,
+                        const void *fields, double *sums);
+
+/** Maxima over the unknowns of all ranks; NaN is ignored. @param maxima  [count] out; -INFINITY
+ *  without unknowns @return as mps_ppe_sum() */
+MPS_API int mps_ppe_max(const mps_ppe_problem *problem, int32_t count, const mps_sums *raise,
+                        const void *fields, double *maxima);
 
 /** Why a solver stopped. */
 enum {
@@ -184,7 +233,7 @@ typedef struct mps_preconditioner_ops {
     /** Create a state in *self; on entry *self is `user`, which it may remain. Allocates from
      *  `allocator`. Non-zero: out of memory. */
     int (*create)(const mps_allocator *allocator, void **self);
-    /** Set up for a matrix, which is valid until the last apply.
+    /** Set up for a matrix. `problem` is valid until the last apply.
      *  @return MPS_PPE_CONVERGED, or a reason of failure */
     int (*setup)(void *self, const mps_ppe_problem *problem);
     /** z = M^-1 r, both [n]. @return as setup */
@@ -197,11 +246,24 @@ typedef struct mps_preconditioner_ops {
     const char *help;
     /** 1: supports equations distributed over ranks (mps_ppe_problem.ranks); default 0 */
     int32_t ranks;
-    /** Kept 0. */
-    int32_t reserved;
+    /** 1: supports equations on a device (mps_ppe_problem.device); default 0 */
+    int32_t device;
     /** On many ranks: largest distance of the unknowns that it reads from an owned position [dp];
      *  0: the far radius is sufficient. */
     double reach;
+    /** NULL, or free the device memory of the state, which may not have any. Called before the
+     *  device is detached; setup follows before the next apply. destroy frees device memory too. */
+    void (*release_device)(void *self);
+    /** NULL, or the name of a registered preconditioner. If a solution fails with this one
+     *  (MPS_PPE_INDEFINITE or MPS_PPE_BREAKDOWN), the library solves again with that one and logs a
+     *  warning. That one must have `symmetric`, `ranks` and `device` if this one has, and at most
+     *  its reach. */
+    const char *fallback;
+    /** 1: on one rank setup on a device queues loops and does not wait for their results, so that a
+     *  solver may call it before it knows whether the iteration has to begin; default 0 */
+    int32_t setup_async;
+    /** Kept 0. */
+    int32_t reserved;
 } mps_preconditioner_ops;
 
 /** A solver. The kit of tests/conformance checks all requirements below (solver_kit.h:
@@ -256,13 +318,21 @@ typedef struct mps_solver_ops {
     const char *help;
     /** 1: supports equations distributed over ranks (mps_ppe_problem.ranks); default 0 */
     int32_t ranks;
+    /** As mps_preconditioner_ops.device; then the preconditioner needs it too. */
+    int32_t device;
+    /** 1: uses mps_ppe_problem.hint. 0: the library waits for the device before a solution that the
+     *  hint may refuse. Default 0. */
+    int32_t hint;
+    /** As mps_preconditioner_ops.release_device; solve follows. */
+    void (*release_device)(void *self);
 } mps_solver_ops;
 
 /** Register a solver on a handle under its name; the table is copied.
  *  @return MPS_E_ARG (a taken name, a missing entry), MPS_E_VERSION, MPS_E_BUSY */
 MPS_API mps_status mps_solver_register(mps_sim *sim, const mps_solver_ops *ops);
 
-/** Register a preconditioner on a handle. @return as mps_solver_register() */
+/** Register a preconditioner on a handle. @return as mps_solver_register(); MPS_E_NAME: its
+ *  fallback is not registered */
 MPS_API mps_status mps_preconditioner_register(mps_sim *sim, const mps_preconditioner_ops *ops);
 
 /** Law of a nonlinear row: f(p) = P ln(1 + p/P), with f(0) = 0 and slope 1 there; rising and
