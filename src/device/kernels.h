@@ -119,16 +119,16 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     static const mps_sums name = {sizeof(mps_sums), sizeof(type), #name, NULL};
 
 #undef MPS__LOOP_OF
-#define MPS__LOOP_OF(name, row, type, host)           \
-    typedef struct name##_given {                     \
-        mps__launch launch;                           \
-        type fields;                                  \
-    } name##_given;                                   \
-    MPSK__BOTH(name, row(dim_, &given_->fields, i_);) \
+#define MPS__LOOP_OF(name, work, type, host) \
+    typedef struct name##_given {            \
+        mps__launch launch;                  \
+        type fields;                         \
+    } name##_given;                          \
+    MPSK__BOTH(name, work;)                  \
     static const mps__loop name = {#name, sizeof(type), NULL};
 
 #undef MPS__VALUES_OF
-#define MPS__VALUES_OF(name, row, type, sums, maxima, host)                                       \
+#define MPS__VALUES_OF(name, work, type, sums, maxima, host)                                      \
     typedef struct name##_given {                                                                 \
         mps__launch launch;                                                                       \
         type fields;                                                                              \
@@ -136,7 +136,7 @@ static inline __attribute__((always_inline)) int64_t mpsk__bits(const void *valu
     MPSK__BOTH(name, double own_[(sums) + (maxima)];                                              \
                for (int k_ = 0; k_ < (sums) + (maxima); k_++) own_[k_] = k_ < (sums) ? 0          \
                                                                                      : -INFINITY; \
-               row(dim_, &given_->fields, i_, own_); MPSK__STORE((sums) + (maxima)))              \
+               work; MPSK__STORE((sums) + (maxima)))                                              \
     static const mps__values name = {#name, sizeof(type), sums, maxima, NULL};
 
 #undef MPS__GROUP

@@ -88,9 +88,9 @@ MPS_ROW int64_t decision(const mps__cg_recurrence *f)
     }
 }
 
-MPS_ROW void decide(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void decide(const mps__cg_recurrence *f, int64_t i)
 {
-    (void)dim, (void)i;
+    (void)i;
     if (f->n->stop) return;
     f->n->stop = decision(f);
     f->n->over = f->n->stop == RUNNING || f->n->stop >= NOWHERE;
@@ -98,18 +98,16 @@ MPS_ROW void decide(const int dim, const mps__cg_recurrence *f, int64_t i)
 MPS__LOOP_ANY(decisions, decide, mps__cg_recurrence)
 
 /* The next direction, p = z + beta p; the first one is z itself. */
-MPS_ROW void redirect(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void redirect(const mps__cg_recurrence *f, int64_t i)
 {
-    (void)dim;
     if (f->n->stop) return;
     f->p[i] = f->n->iterations == 0 ? f->z[i] : f->z[i] + f->n->beta * f->p[i];
 }
 MPS__LOOP_ANY(redirections, redirect, mps__cg_recurrence)
 
 /* A step along p, and the norms of the new residual. */
-MPS_ROW void advance(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+MPS_ROW void advance(const mps__cg_recurrence *f, int64_t i, double *values)
 {
-    (void)dim;
     if (f->n->stop) return;
     const double alpha = f->n->alpha, along = alpha * f->p[i];
     const double r = f->r[i] + -alpha * f->product[i];

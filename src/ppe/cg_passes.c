@@ -4,9 +4,8 @@
  * set-up of a preconditioner and after iterations. */
 #include "cg_workspace.h"
 
-MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+MPS_ROW void begin_row(const mps__cg_recurrence *f, int64_t i, double *values)
 {
-    (void)dim;
     values[0] = f->rhs[i] * f->rhs[i];
     if (0 * f->solution[i] != 0) values[1] = 1;
     if (-f->diagonal[i] > values[2]) values[2] = -f->diagonal[i];
@@ -14,20 +13,18 @@ MPS_ROW void begin_row(const int dim, const mps__cg_recurrence *f, int64_t i, do
 MPS__VALUES_ANY(beginnings, begin_row, mps__cg_recurrence, 1, 2)
 
 /* A guess with NaN or infinity becomes zero; for a zero right side the solution is zero. */
-MPS_ROW void guess(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void guess(const mps__cg_recurrence *f, int64_t i)
 {
-    (void)dim;
     if (f->begun->poison > 0 || mps_exact_value(&f->begun->rhs_squares) == 0) f->solution[i] = 0;
     f->start[i] = f->solution[i];
 }
 MPS__LOOP_ANY(guesses, guess, mps__cg_recurrence)
 
 /* Checks a row as mps_ppe_check() does. */
-MPS_ROW void check_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+MPS_ROW void check_row(const mps__cg_recurrence *f, int64_t i, double *values)
 {
     const double *p = f->solution;
     double s = f->diagonal[i] * p[i], *maxima = values + 2;
-    (void)dim;
     if (f->n->over) return;
     for (int64_t k = f->row[i]; k < f->row[i + 1]; k++) s += (double)f->val[k] * p[f->col[k]];
     const double r = f->rhs[i] - s, d = f->weight ? fabs(r * f->weight[i]) : 0;
@@ -39,23 +36,21 @@ MPS_ROW void check_row(const int dim, const mps__cg_recurrence *f, int64_t i, do
 }
 MPS__VALUES_ANY(checks, check_row, mps__cg_recurrence, 2, 2)
 
-MPS_ROW void poison_row(const int dim, const mps__cg_recurrence *f, int64_t i, double *values)
+MPS_ROW void poison_row(const mps__cg_recurrence *f, int64_t i, double *values)
 {
-    (void)dim;
     if (0 * f->x[i] != 0) values[0] = 1;
 }
 MPS__VALUES_ANY(poisons, poison_row, mps__cg_recurrence, 0, 1)
 
-MPS_ROW void correct(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void correct(const mps__cg_recurrence *f, int64_t i)
 {
-    (void)dim;
     if (!f->n->over) f->solution[i] += *f->poison > 0 ? 0 : f->x[i];
 }
 MPS__LOOP_ANY(corrections, correct, mps__cg_recurrence)
 
-MPS_ROW void report(const int dim, const mps__cg_recurrence *f, int64_t i)
+MPS_ROW void report(const mps__cg_recurrence *f, int64_t i)
 {
-    (void)dim, (void)i;
+    (void)i;
     if (f->n->over) return;
     mps__cg_note_residual(f, NOW);
     f->n->over = 1;

@@ -63,19 +63,17 @@ MPS_ROW double inverse_of(double d)
     return d > 0 ? 1 / d : 1;
 }
 
-MPS_ROW void invert_row(const int dim, const operands *o, int64_t i, double *found)
+MPS_ROW void invert_row(const operands *o, int64_t i, double *found)
 {
     const double d = o->x[i];
-    (void)dim;
     if (!isfinite(d)) found[POISON] = 1;
     if (d < 0) found[NEGATIVE] = 1;
     o->z[i] = inverse_of(d);
 }
 MPS__VALUES_ANY(invert_rows, invert_row, operands, 0, VALUES)
 
-MPS_ROW void invert_device(const int dim, const operands *o, int64_t i)
+MPS_ROW void invert_device(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = inverse_of(o->x[i]);
 }
 MPS__LOOP_ANY(invert_rows_device, invert_device, operands)

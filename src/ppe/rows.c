@@ -45,10 +45,9 @@ MPS_ROW double row_dot(const float *val, const int32_t *col, int64_t count, cons
     return (s[0] + s[2]) + (s[1] + s[3]);
 }
 
-MPS_ROW void multiply_row(const int dim, const product *m, int64_t i, double *values)
+MPS_ROW void multiply_row(const product *m, int64_t i, double *values)
 {
     const int64_t first = m->row[i];
-    (void)dim;
     m->y[i] = m->diagonal[i] * m->x[i] +
               row_dot(m->val + first, m->col + first, m->row[i + 1] - first, m->x);
     values[0] = m->x[i] * m->y[i];
@@ -62,7 +61,7 @@ static void multiply_range(const product *m, int64_t begin, int64_t end, mps_exa
     (void)none;
     for (int64_t lo = begin, hi; lo < end; lo = hi) {
         hi = lo + MPS__BLOCK < end ? lo + MPS__BLOCK : end;
-        for (int64_t i = lo; i < hi; i++) multiply_row(MPS__ANY_DIM, m, i, row);
+        for (int64_t i = lo; i < hi; i++) multiply_row(m, i, row);
         mps_exact_add_products(sum, hi - lo, m->x + lo, m->y + lo);
     }
 }
@@ -140,9 +139,8 @@ typedef struct curvature {
     const double *diagonal, *x;
 } curvature;
 
-MPS_ROW void scale_row(const int dim, const curvature *c, int64_t i, double *values)
+MPS_ROW void scale_row(const curvature *c, int64_t i, double *values)
 {
-    (void)dim;
     values[0] = c->diagonal[i] * c->x[i] * c->x[i];
 }
 MPS__VALUES_ANY(scale_rows, scale_row, curvature, 1, 0)

@@ -17,9 +17,8 @@ static void run(const mps_parallel *p, const mps__loop *loop, int64_t n, const o
     mps__loop_run_cheap(p, loop, MPS__ANY_DIM, n, o);
 }
 
-MPS_ROW void fill_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void fill_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = o->a;
 }
 MPS__LOOP_CHEAP(fill_rows, fill_row, operands)
@@ -29,9 +28,8 @@ void mps__vectors_fill(const mps_parallel *p, int64_t n, double a, double *z)
     run(p, &fill_rows, n, &(operands){.a = a, .z = z});
 }
 
-MPS_ROW void scale_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void scale_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = o->a * o->x[i];
 }
 MPS__LOOP_CHEAP(scale_rows, scale_row, operands)
@@ -41,9 +39,8 @@ void mps__vectors_scale(const mps_parallel *p, int64_t n, double a, const double
     run(p, &scale_rows, n, &(operands){.a = a, .x = x, .z = z});
 }
 
-MPS_ROW void sum_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void sum_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = o->a * o->x[i] + o->b * o->y[i];
 }
 MPS__LOOP_CHEAP(sum_rows, sum_row, operands)
@@ -54,9 +51,8 @@ void mps__vectors_sum(const mps_parallel *p, int64_t n, const double factor[2], 
     run(p, &sum_rows, n, &(operands){factor[0], factor[1], x, y, z});
 }
 
-MPS_ROW void product_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void product_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = o->x[i] * o->y[i];
 }
 MPS__LOOP_CHEAP(product_rows, product_row, operands)
@@ -67,9 +63,8 @@ void mps__vectors_product(const mps_parallel *p, int64_t n, const double *x, con
     run(p, &product_rows, n, &(operands){.x = x, .y = y, .z = z});
 }
 
-MPS_ROW void quotient_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void quotient_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = o->x[i] / o->y[i];
 }
 MPS__LOOP_CHEAP(quotient_rows, quotient_row, operands)
@@ -80,9 +75,8 @@ void mps__vectors_quotient(const mps_parallel *p, int64_t n, const double *x, co
     run(p, &quotient_rows, n, &(operands){.x = x, .y = y, .z = z});
 }
 
-MPS_ROW void absolute_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void absolute_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = fabs(o->x[i]);
 }
 MPS__LOOP_CHEAP(absolute_rows, absolute_row, operands)
@@ -92,9 +86,8 @@ void mps__vectors_absolute(const mps_parallel *p, int64_t n, const double *x, do
     run(p, &absolute_rows, n, &(operands){.x = x, .z = z});
 }
 
-MPS_ROW void inverse_row(const int dim, const operands *o, int64_t i)
+MPS_ROW void inverse_row(const operands *o, int64_t i)
 {
-    (void)dim;
     o->z[i] = 1.0 / o->x[i];
 }
 MPS__LOOP_CHEAP(inverse_rows, inverse_row, operands)
@@ -125,9 +118,8 @@ static void reduce(const mps_ppe_problem *problem, const mps__values *values, co
     mps_ppe_total(problem, &(mps_exact_values){values->sums, values->maxima, sum, maximum});
 }
 
-MPS_ROW void dot_row(const int dim, const operands *o, int64_t i, double *values)
+MPS_ROW void dot_row(const operands *o, int64_t i, double *values)
 {
-    (void)dim;
     values[0] = o->x[i] * o->y[i];
 }
 
@@ -152,10 +144,9 @@ double mps__vectors_dot(const mps_ppe_problem *problem, const double *x, const d
     return mps_exact_value(&sum);
 }
 
-MPS_ROW void square_row(const int dim, const operands *o, int64_t i, double *values)
+MPS_ROW void square_row(const operands *o, int64_t i, double *values)
 {
     const double product = o->x[i] * o->y[i];
-    (void)dim;
     values[0] = product * product;
 }
 MPS__VALUES_ANY(square_rows, square_row, operands, 1, 0)
@@ -168,10 +159,9 @@ double mps__vectors_squares(const mps_ppe_problem *problem, const double *x, con
     return mps_exact_value(&sum);
 }
 
-MPS_ROW void norm_row(const int dim, const operands *o, int64_t i, double *values)
+MPS_ROW void norm_row(const operands *o, int64_t i, double *values)
 {
     const double size = o->y ? fabs(o->x[i] * o->y[i]) : 0;
-    (void)dim;
     values[0] = o->x[i] * o->x[i];
     if (size > values[1]) values[1] = size;
 }
@@ -203,10 +193,9 @@ void mps__vectors_norms(const mps_ppe_problem *problem, const double *x, const d
     *squares = mps_exact_value(&sum);
 }
 
-MPS_ROW void largest_row(const int dim, const operands *o, int64_t i, double *values)
+MPS_ROW void largest_row(const operands *o, int64_t i, double *values)
 {
     const double value = o->a == 0 ? fabs(o->x[i]) : o->a * o->x[i];
-    (void)dim;
     if (value > values[0]) values[0] = value;
 }
 MPS__VALUES_ANY(largest_rows, largest_row, operands, 0, 1)
@@ -219,9 +208,8 @@ double mps__vectors_largest(const mps_ppe_problem *problem, const double *x, dou
     return largest;
 }
 
-MPS_ROW void poison_row(const int dim, const operands *o, int64_t i, double *values)
+MPS_ROW void poison_row(const operands *o, int64_t i, double *values)
 {
-    (void)dim;
     if (0 * o->x[i] != 0) values[0] = 1;
 }
 MPS__VALUES_ANY(poison_rows, poison_row, operands, 0, 1)

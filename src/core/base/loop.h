@@ -84,23 +84,23 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
  * compiled for dim = 2 and 3, so that loops over dim unroll. The loop copies the fields, so that
  * they stay in registers. */
 #define MPS__LOOP(name, row, type)                                                        \
-    MPS__LOOP_OF(name, row, type,                                                         \
+    MPS__LOOP_OF(name, row(dim_, &given_->fields, i_), type,                              \
                  if (dim_ == 2) for (int64_t i = begin; i < end; i++) row(2, &given_, i); \
                  else for (int64_t i = begin; i < end; i++) row(3, &given_, i);)
 
-/* MPS__LOOP() of rows that do not depend on the dimension: compiled once. */
-#define MPS__LOOP_ANY(name, row, type) \
-    MPS__LOOP_OF(name, row, type,      \
-                 for (int64_t i = begin; i < end; i++) row(MPS__ANY_DIM, &given_, i);)
+/* MPS__LOOP() of rows that do not depend on the dimension: row(fields, i). */
+#define MPS__LOOP_ANY(name, row, type)                 \
+    MPS__LOOP_OF(name, row(&given_->fields, i_), type, \
+                 for (int64_t i = begin; i < end; i++) row(&given_, i);)
 
 /* MPS__LOOP_ANY() of very cheap rows: a vector loop on the host. */
-#define MPS__LOOP_CHEAP(name, row, type)                                \
-    MPS__LOOP_OF(name, row, type,                                       \
-                 MPS__INDEPENDENT for (int64_t i = begin; i < end; i++) \
-                     row(MPS__ANY_DIM, &given_, i);)
+#define MPS__LOOP_CHEAP(name, row, type)               \
+    MPS__LOOP_OF(name, row(&given_->fields, i_), type, \
+                 MPS__INDEPENDENT for (int64_t i = begin; i < end; i++) row(&given_, i);)
 
-/* `host`: the loop, with dim_, given_, begin and end. A kernel runs `row`. */
-#define MPS__LOOP_OF(name, row, type, host)                                               \
+/* `host`: the loop, with dim_, given_, begin and end. `work`: of a row in a kernel, with dim_,
+ * given_ and i_. */
+#define MPS__LOOP_OF(name, work, type, host)                                              \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end) \
     {                                                                                     \
         const type given_ = *(const type *)fields_;                                       \
@@ -115,32 +115,31 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
  *   MPS_ROW void row(const int dim, const type *fields, int64_t i, double *values);
  * which sets values[0..sums-1] to the terms of the row, each 0 on entry, and updates the maxima
  * after them. */
-#define MPS__VALUES(name, row, type, sums, maxima) \
-    MPS__VALUES_OF(name, row, type, sums, maxima,  \
-                   MPS__TERMS(sums, maxima,        \
+#define MPS__VALUES(name, row, type, sums, maxima)                                 \
+    MPS__VALUES_OF(name, row(dim_, &given_->fields, i_, own_), type, sums, maxima, \
+                   MPS__TERMS(sums, maxima,                                        \
                               (dim_ == 2 ? row(2, &given_, i, own_) : row(3, &given_, i, own_))))
 
-/* MPS__VALUES() of rows that do not depend on the dimension. */
-#define MPS__VALUES_ANY(name, row, type, sums, maxima) \
-    MPS__VALUES_OF(name, row, type, sums, maxima,      \
-                   MPS__TERMS(sums, maxima, row(MPS__ANY_DIM, &given_, i, own_)))
+/* MPS__VALUES() of rows that do not depend on the dimension: row(fields, i, values). */
+#define MPS__VALUES_ANY(name, row, type, sums, maxima)                       \
+    MPS__VALUES_OF(name, row(&given_->fields, i_, own_), type, sums, maxima, \
+                   MPS__TERMS(sums, maxima, row(&given_, i, own_)))
 
 /* MPS__VALUES_ANY() with a host function for a range, which has the same terms:
  *   static void range(const type *fields, int64_t begin, int64_t end, mps_exact *sums,
  *                     double *maxima); */
-#define MPS__VALUES_BY(name, row, range, type, sums, maxima) \
-    MPS__VALUES_OF(name, row, type, sums, maxima, (void)row; \
+#define MPS__VALUES_BY(name, row, range, type, sums, maxima)                            \
+    MPS__VALUES_OF(name, row(&given_->fields, i_, own_), type, sums, maxima, (void)row; \
                    range(&given_, begin, end, sum_, maximum_);)
 
 /* Define the mps__values `name` that finds the first row that satisfies a test
  *   MPS_ROW bool is_it(const type *fields, int64_t i);
  * The lowest row has the largest negative index; doubles are exact to 2^53. */
-#define MPS__FIRST(name, is_it, type)                                                          \
-    MPS_ROW void name##_row(const int dim_, const type *fields_, int64_t i_, double *largest_) \
-    {                                                                                          \
-        (void)dim_;                                                                            \
-        if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_;            \
-    }                                                                                          \
+#define MPS__FIRST(name, is_it, type)                                               \
+    MPS_ROW void name##_row(const type *fields_, int64_t i_, double *largest_)      \
+    {                                                                               \
+        if (-(double)i_ > *largest_ && is_it(fields_, i_)) *largest_ = -(double)i_; \
+    }                                                                               \
     MPS__VALUES_ANY(name, name##_row, type, 0, 1)
 
 /* Loop of a reduction on the host; `work` is the code of a row. */
@@ -157,8 +156,8 @@ int64_t mps__first_run(const mps_parallel *p, const mps__values *first, int64_t 
     mps__terms_end(&terms_);                                    \
     memcpy(maximum_, own_ + (sums), (maxima) * sizeof(double));
 
-/* `host`: as in MPS__LOOP_OF(). */
-#define MPS__VALUES_OF(name, row, type, sums, maxima, host)                               \
+/* `host` and `work`: as in MPS__LOOP_OF(). */
+#define MPS__VALUES_OF(name, work, type, sums, maxima, host)                              \
     static void name##_run(int32_t dim_, const void *fields_, int64_t begin, int64_t end, \
                            mps_exact *sum_, double *maximum_)                             \
     {                                                                                     \

@@ -9,9 +9,8 @@ typedef struct level {
     int64_t n;
 } level;
 
-MPS_ROW void sum_row(const int dim, const level *l, int64_t block)
+MPS_ROW void sum_row(const level *l, int64_t block)
 {
-    (void)dim;
     const int64_t begin = block * MPS__SCAN_BLOCK,
                   end = begin + MPS__SCAN_BLOCK < l->n ? begin + MPS__SCAN_BLOCK : l->n;
     int64_t sum = 0;
@@ -21,9 +20,8 @@ MPS_ROW void sum_row(const int dim, const level *l, int64_t block)
 MPS__LOOP_ANY(sum_blocks, sum_row, level)
 
 /* `sums` holds the scanned block sums. */
-MPS_ROW void raise_row(const int dim, const level *l, int64_t i)
+MPS_ROW void raise_row(const level *l, int64_t i)
 {
-    (void)dim;
     if (i >= MPS__SCAN_BLOCK) l->value[i] += l->sum[i / MPS__SCAN_BLOCK - 1];
 }
 MPS__LOOP_ANY(raise_rows, raise_row, level)

@@ -30,11 +30,10 @@ MPS_ROW int64_t count_before(const mps__sorting *s, int64_t a, int64_t run)
     return lo - begin;
 }
 
-MPS_ROW void merge_row(const int dim, const mps__sorting *s, int64_t a)
+MPS_ROW void merge_row(const mps__sorting *s, int64_t a)
 {
     const int64_t own = a / s->run, first = own - own % WAYS;
     int64_t to = first * s->run + a % s->run;
-    (void)dim;
     for (int64_t run = first; run < first + WAYS; run++)
         if (run != own) to += count_before(s, a, run);
     s->new_key[to] = s->key[a];

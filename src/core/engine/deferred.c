@@ -48,9 +48,8 @@ typedef struct rounding {
     double *value;
 } rounding;
 
-MPS_ROW void round_row(const int dim, const rounding *f, int64_t i)
+MPS_ROW void round_row(const rounding *f, int64_t i)
 {
-    (void)dim;
     f->value[i] = mps_exact_value(&f->sum[i]);
 }
 MPS__LOOP_ANY(round_rows, round_row, rounding)

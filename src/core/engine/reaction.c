@@ -72,10 +72,9 @@ typedef struct joining {
 
 /* Row i is component i of the sums; rows after the last index belong to the line, which sums over
  * all indices. */
-MPS_ROW void join_row(const int dim, const joining *f, int64_t i)
+MPS_ROW void join_row(const joining *f, int64_t i)
 {
     const int64_t number = i % WIDTH;
-    (void)dim;
     if (i < (int64_t)f->places * WIDTH)
         mps_exact_join(&f->sum[i], &f->reported[i]);
     else
@@ -85,9 +84,8 @@ MPS_ROW void join_row(const int dim, const joining *f, int64_t i)
 MPS__LOOP_ANY(join_rows, join_row, joining)
 
 /* Maximum: 1 if a sum is not finite. */
-MPS_ROW void poison_row(const int dim, const joining *f, int64_t i, double *most)
+MPS_ROW void poison_row(const joining *f, int64_t i, double *most)
 {
-    (void)dim;
     if (!isfinite(mps_exact_value(&f->reported[i]))) *most = 1;
 }
 MPS__VALUES_ANY(poisons, poison_row, joining, 0, 1)

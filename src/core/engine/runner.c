@@ -214,9 +214,8 @@ typedef struct beginning {
     int32_t width, diagonal;
 } beginning;
 
-MPS_ROW void begin_row(const int dim, const beginning *b, int64_t i)
+MPS_ROW void begin_row(const beginning *b, int64_t i)
 {
-    (void)dim;
     for (int32_t d = 0; d < b->width; d++) {
         const double value = d % b->diagonal == 0 ? b->initial : 0;
         if (b->reals)

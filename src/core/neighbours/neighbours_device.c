@@ -56,10 +56,9 @@ MPS_ROW void count_row(const int dim, const seeking *s, int64_t i)
 MPS__LOOP(count_rows, count_row, seeking)
 
 /* Longest row, and prefix sum of the lengths. */
-MPS_ROW void measure_row(const int dim, const seeking *s, int64_t i, double *most)
+MPS_ROW void measure_row(const seeking *s, int64_t i, double *most)
 {
     const double count = s->at.count[i], sum = (double)s->at.begin[i];
-    (void)dim;
     if (count > most[0]) most[0] = count;
     if (sum > most[1]) most[1] = sum;
 }

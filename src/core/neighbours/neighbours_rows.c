@@ -190,11 +190,10 @@ static int64_t keep_visible(const hiding *l, const mps__near_plate *a, int64_t f
 }
 
 /* Move occluded pairs behind the others. */
-MPS_ROW void hide_row(const int dim, const hiding *l, int64_t k)
+MPS_ROW void hide_row(const hiding *l, int64_t k)
 {
     const mps__near_plate *a = &l->near_plate[k];
     const int64_t i = a->particle, middle = l->middle[i], last = l->end[i];
-    (void)dim;
     l->middle[i] = keep_visible(l, a, l->begin[i], middle, l->begin[i]);
     l->end[i] = keep_visible(l, a, middle, last, l->middle[i]);
 }
@@ -252,9 +251,8 @@ typedef struct nears {
     int64_t *near_begin;
 } nears;
 
-MPS_ROW void near_row(const int dim, const nears *f, int64_t i)
+MPS_ROW void near_row(const nears *f, int64_t i)
 {
-    (void)dim;
     f->near_begin[i] = i > 0 ? f->middle[i - 1] - f->begin[i - 1] : 0;
 }
 MPS__LOOP_ANY(near_rows, near_row, nears)

@@ -51,9 +51,8 @@ typedef struct packets {
     size_t bytes; /* per packet */
 } packets;
 
-MPS_ROW void unpack_row(const int dim, const packets *f, int64_t k)
+MPS_ROW void unpack_row(const packets *f, int64_t k)
 {
-    (void)dim;
     memcpy(f->values + (size_t)f->particle[k] * f->bytes, f->from + (size_t)k * f->bytes, f->bytes);
 }
 MPS__LOOP_ANY(unpack_rows, unpack_row, packets)
@@ -114,18 +113,16 @@ typedef struct indexed {
     double *to;
 } indexed;
 
-MPS_ROW void take_row(const int dim, const indexed *f, int64_t k)
+MPS_ROW void take_row(const indexed *f, int64_t k)
 {
     const int32_t at = f->index[f->particle[k]];
-    (void)dim;
     f->to[k] = at >= 0 ? f->from[at] : 0;
 }
 MPS__LOOP_ANY(take_rows, take_row, indexed)
 
-MPS_ROW void put_row(const int dim, const indexed *f, int64_t k)
+MPS_ROW void put_row(const indexed *f, int64_t k)
 {
     const int32_t at = f->index[f->particle[k]];
-    (void)dim;
     if (at >= 0) f->to[at] = f->from[k];
 }
 MPS__LOOP_ANY(put_rows, put_row, indexed)

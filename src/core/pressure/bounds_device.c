@@ -12,9 +12,8 @@ MPS_ROW bool is_fixed(const mps__bound_rows *f, int64_t r)
 }
 
 /* Values for the halo exchange. */
-MPS_ROW void write_fixed(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void write_fixed(const mps__bound_rows *f, int64_t r)
 {
-    (void)dim;
     f->fixed[r] = is_fixed(f, r) ? f->least[r] : NAN;
 }
 MPS__LOOP_ANY(write_fixed_rows, write_fixed, mps__bound_rows)
@@ -26,11 +25,10 @@ MPS_ROW double fixed_at(const mps__bound_rows *f, int64_t c)
     return is_fixed(f, c) ? f->least[c] : NAN;
 }
 
-MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void begin_row(const mps__bound_rows *f, int64_t r)
 {
     const int64_t i = f->particle[r];
     const bool bounded = f->condition[i] == MPS_ROW_LEAST;
-    (void)dim;
     f->least[r] = bounded ? f->value[i] : NAN;
     f->margin[r] = f->nearly * f->density[i] * f->speed * f->speed;
     f->bounded[r] = bounded;
@@ -38,12 +36,11 @@ MPS_ROW void begin_row(const int dim, const mps__bound_rows *f, int64_t r)
 }
 MPS__LOOP_ANY(begin_rows, begin_row, mps__bound_rows)
 
-MPS_ROW void fix_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void fix_row(const mps__bound_rows *f, int64_t r)
 {
     const bool own = is_fixed(f, r);
     double rhs = f->rhs[r], shift = f->shift[r];
     bool changed = own;
-    (void)dim;
     f->kept_rhs[r] = rhs;
     f->kept_shift[r] = shift;
     for (int64_t p = f->row[r]; p < f->row[r + 1]; p++) {
@@ -66,9 +63,8 @@ MPS_ROW void fix_row(const int dim, const mps__bound_rows *f, int64_t r)
 MPS__LOOP_ANY(fix_rows, fix_row, mps__bound_rows)
 
 /* Restore the assembled row, bit by bit. */
-MPS_ROW void free_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void free_row(const mps__bound_rows *f, int64_t r)
 {
-    (void)dim;
     if (!f->changed[r]) return;
     f->rhs[r] = f->kept_rhs[r];
     f->shift[r] = f->kept_shift[r];
@@ -87,10 +83,9 @@ MPS_ROW double residual(const mps__bound_rows *f, int64_t r)
 }
 
 /* Next active set. The maximum: whether it has changed. */
-MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, double *changed)
+MPS_ROW void choose_row(const mps__bound_rows *f, int64_t r, double *changed)
 {
     bool active = false;
-    (void)dim;
     if (f->bounded[r])
         active = f->active[r] ? residual(f, r) >= -f->margin[r] * f->diagonal[r]
                               : f->p[r] < f->least[r] - f->margin[r];
@@ -99,9 +94,8 @@ MPS_ROW void choose_row(const int dim, const mps__bound_rows *f, int64_t r, doub
 }
 MPS__VALUES_ANY(choose_rows, choose_row, mps__bound_rows, 0, 1)
 
-MPS_ROW void condition_row(const int dim, const mps__bound_rows *f, int64_t r)
+MPS_ROW void condition_row(const mps__bound_rows *f, int64_t r)
 {
-    (void)dim;
     if (f->active[r]) f->condition[f->particle[r]] = MPS__ROW_ACTIVE;
 }
 MPS__LOOP_ANY(condition_rows, condition_row, mps__bound_rows)

@@ -20,18 +20,16 @@ typedef struct components {
 } components;
 
 /* Most rows join the set of their first column at once. */
-MPS_ROW void begin_row(const int dim, const components *f, int64_t r)
+MPS_ROW void begin_row(const components *f, int64_t r)
 {
     const int64_t first = f->row[r] < f->row[r + 1] ? f->col[f->row[r]] : r;
-    (void)dim;
     mps__atomic_put(&f->parent[r], (int32_t)(first < r ? first : r));
     mps__atomic_put(&f->datum[r], 0);
 }
 MPS__LOOP_ANY(begin_rows, begin_row, components)
 
-MPS_ROW void join_row(const int dim, const components *f, int64_t r)
+MPS_ROW void join_row(const components *f, int64_t r)
 {
-    (void)dim;
     for (int64_t k = f->row[r]; k < f->row[r + 1]; k++) {
         if (f->col[k] >= f->n) continue; /* column of another rank, at any position in the row */
         if (f->col[k] > r) break;
@@ -41,9 +39,8 @@ MPS_ROW void join_row(const int dim, const components *f, int64_t r)
 }
 MPS__LOOP_ANY(join_rows, join_row, components)
 
-MPS_ROW void raise_row(const int dim, const components *f, int64_t r)
+MPS_ROW void raise_row(const components *f, int64_t r)
 {
-    (void)dim;
     if (f->shift[r] > 0) mps__atomic_put(&f->datum[mps__union_find(f->parent, (int32_t)r)], 1);
 }
 MPS__LOOP_ANY(raise_rows, raise_row, components)
@@ -54,19 +51,17 @@ MPS_ROW bool lacks_datum(const components *f, int64_t r)
 }
 MPS__FIRST(lacking_rows, lacks_datum, components)
 
-MPS_ROW void send_row(const int dim, const components *f, int64_t r)
+MPS_ROW void send_row(const components *f, int64_t r)
 {
-    (void)dim;
     f->datum_of[r] = mps__atomic_get(&f->datum[mps__union_find(f->parent, (int32_t)r)]);
 }
 MPS__LOOP_ANY(send_rows, send_row, components)
 
 /* A set with a column of another rank takes over the datum of that row's set. The maximum: whether
  * any set got one. */
-MPS_ROW void receive_row(const int dim, const components *f, int64_t r, double *any)
+MPS_ROW void receive_row(const components *f, int64_t r, double *any)
 {
     mps__atomic_number *datum = &f->datum[mps__union_find(f->parent, (int32_t)r)];
-    (void)dim;
     for (int64_t k = f->row[r]; k < f->row[r + 1] && f->datum_of[r] == 0; k++) {
         if (f->col[k] < f->n || !(f->datum_of[f->col[k]] > 0)) continue;
         mps__atomic_put(datum, 1);

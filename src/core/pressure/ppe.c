@@ -149,33 +149,30 @@ typedef struct numbering {
     int32_t *unknown, *particle;
 } numbering;
 
-MPS_ROW void mark_row(const int dim, const numbering *f, int64_t i)
+MPS_ROW void mark_row(const numbering *f, int64_t i)
 {
     const assembly *a = &f->terms;
-    (void)dim;
     f->number[i] = !is_unknown(a, i) ? 0 : mps__owns(a->ghost, i) ? 1 : OTHERS;
 }
 MPS__LOOP_ANY(mark_rows, mark_row, numbering)
 
 /* Unknowns in the order of the particles, then those of other ranks. */
-MPS_ROW void number_row(const int dim, const numbering *f, int64_t i)
+MPS_ROW void number_row(const numbering *f, int64_t i)
 {
     const assembly *a = &f->terms;
     const int64_t up_to = f->number[i], rows = a->unknowns ? *a->unknowns % OTHERS : f->rows,
                   place = mps__owns(a->ghost, i) ? up_to % OTHERS : rows + up_to / OTHERS;
     const bool solved = is_unknown(a, i);
-    (void)dim;
     f->unknown[i] = solved ? (int32_t)place - 1 : -1;
     if (solved) f->particle[place - 1] = (int32_t)i;
 }
 MPS__LOOP_ANY(number_rows, number_row, numbering)
 
 /* Off-diagonal entries of row r. */
-MPS_ROW void count_row(const int dim, const assembly *a, int64_t r)
+MPS_ROW void count_row(const assembly *a, int64_t r)
 {
     const mps_stencil *pairs = &a->pairs;
     int64_t count = 0;
-    (void)dim;
     if (a->unknowns && r >= *a->unknowns % OTHERS) {
         a->row[r + 1] = 0;
         return;
@@ -232,18 +229,17 @@ typedef struct counting {
     mps__ppe_counts *found;
 } counting;
 
-MPS_ROW void write_row(const int dim, const counting *f, int64_t i)
+MPS_ROW void write_row(const counting *f, int64_t i)
 {
-    (void)dim, (void)i;
+    (void)i;
     f->found->unknowns = f->number[f->particles - 1];
     f->found->entries = f->row[f->particles];
 }
 MPS__LOOP_ANY(write_rows, write_row, counting)
 
 /* Copy to the arrays of the rows. */
-MPS_ROW void settle_row(const int dim, const counting *f, int64_t i)
+MPS_ROW void settle_row(const counting *f, int64_t i)
 {
-    (void)dim;
     if (i <= f->rows) f->to_row[i] = f->row[i];
     if (i < f->columns) f->to_particle[i] = f->particle[i];
     if (i < f->particles) f->to_unknown[i] = f->unknown[i];

@@ -64,12 +64,11 @@ typedef struct ordering {
 
 /* Own columns are ascending, and so are those of other ranks. The index of a column is its position
  * among its own kind plus the number of columns of the other kind with a lower particle. */
-MPS_ROW void order_row(const int dim, const ordering *f, int64_t k)
+MPS_ROW void order_row(const ordering *f, int64_t k)
 {
     const bool own = k < f->n;
     const int64_t begin = own ? f->n : 0;
     int64_t lo = begin, hi = own ? f->columns : f->n;
-    (void)dim;
     while (lo < hi) {
         const int64_t other = lo + (hi - lo) / 2;
         if (f->particle[other] < f->particle[k])

@@ -73,9 +73,8 @@ typedef struct scatter {
     double *p;
 } scatter;
 
-MPS_ROW void scatter_row(const int dim, const scatter *c, int64_t i)
+MPS_ROW void scatter_row(const scatter *c, int64_t i)
 {
-    (void)dim;
     if (c->unknown[i] >= 0)
         c->p[i] = c->solution[c->unknown[i]];
     else

@@ -469,11 +469,10 @@ typedef struct check {
 enum { SQUARES, RHS_SQUARES, SUMS };
 enum { LARGEST, POISON, MAXIMA };
 
-MPS_ROW void check_row(const int dim, const check *c, int64_t i, double *values)
+MPS_ROW void check_row(const check *c, int64_t i, double *values)
 {
     const double *p = c->p;
     double s = c->diagonal[i] * p[i], *maxima = values + SUMS;
-    (void)dim;
     for (int64_t k = c->row[i]; k < c->row[i + 1]; k++) s += (double)c->val[k] * p[c->col[k]];
     if (c->law && c->law[i] > 0) s += c->gas[i] * (mps_ppe_law(c->law[i], p[i], NULL) - p[i]);
     const double r = c->rhs[i] - s, d = c->weight ? fabs(r * c->weight[i]) : 0;

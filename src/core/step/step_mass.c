@@ -42,10 +42,9 @@ typedef struct transfer {
     int32_t from_count, from_at, to_count, to_at;
 } transfer;
 
-MPS_ROW void transfer_row(const int dim, const transfer *f, int64_t i)
+MPS_ROW void transfer_row(const transfer *f, int64_t i)
 {
     const int64_t place = f->place ? f->place[i] : i;
-    (void)dim;
     f->to[i * f->to_count + f->to_at] = place >= 0 ? f->from[place * f->from_count + f->from_at]
                                                    : 0;
 }

@@ -268,12 +268,11 @@ static void settle_line(const part_fields *f, int64_t begin, int64_t end)
         if (v->what[c] == MPS__CELL_COVERED) v->what[c] = cover_of(v, f->w, c);
 }
 
-MPS_ROW void class_row(const int dim, const part_fields *f, int64_t part)
+MPS_ROW void class_row(const part_fields *f, int64_t part)
 {
     mps__voids *v = f->v;
     const int64_t lines = v->plane / v->cells[0];
     int32_t begin, end;
-    (void)dim;
     range_of(f, part, &begin, &end);
     for (int32_t z = begin; z < end; z++)
         for (int64_t line = 0; line < lines; line++) {

@@ -32,10 +32,9 @@ typedef struct inverting {
 } inverting;
 
 /* An empty row is a particle without neighbours; its residual is 0. */
-MPS_ROW void invert_row(const int dim, const inverting *f, int64_t i)
+MPS_ROW void invert_row(const inverting *f, int64_t i)
 {
     const double d = f->diagonal[i];
-    (void)dim;
     f->inverse[i] = d > 0 ? 1 / d : 1;
 }
 MPS__LOOP_ANY(invert_rows, invert_row, inverting)

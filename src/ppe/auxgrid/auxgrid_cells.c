@@ -91,9 +91,8 @@ typedef struct renumbering {
     const int32_t *number; /* new number of each cell, by order of appearance */
 } renumbering;
 
-MPS_ROW void renumber_row(const int dim, const renumbering *f, int64_t i)
+MPS_ROW void renumber_row(const renumbering *f, int64_t i)
 {
-    (void)dim;
     if (f->home[i] >= 0) f->home[i] = f->number[f->home[i]];
 }
 MPS__LOOP_ANY(renumber_rows, renumber_row, renumbering)

@@ -194,10 +194,9 @@ typedef struct restriction {
     double *b;
 } restriction;
 
-MPS_ROW void restrict_row(const int dim, const restriction *f, int64_t c)
+MPS_ROW void restrict_row(const restriction *f, int64_t c)
 {
     double sum = 0;
-    (void)dim;
     for (int64_t k = c > 0 ? f->list.end[c - 1] : 0; k < f->list.end[c]; k++)
         sum += (double)f->list.part[k] * f->rest[f->list.from[k]];
     f->b[c] = sum;

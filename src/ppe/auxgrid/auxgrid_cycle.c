@@ -120,9 +120,8 @@ static void relax(const mps__grid *g, const mps__grid_level *l, int64_t from, in
 }
 
 /* Black cells are zeroed: they are read at missing neighbours, with a factor of zero. */
-MPS_ROW void begin_row(const int dim, const cells *f, int64_t c)
+MPS_ROW void begin_row(const cells *f, int64_t c)
 {
-    (void)dim;
     f->x[c] = c < f->red ? f->b[c] * f->inverse[c] : 0;
 }
 MPS__LOOP_ANY(begin_rows, begin_row, cells)
@@ -214,11 +213,11 @@ static void correct(const mps__grid *g, const mps__grid_level *fine, const mps__
 
 /* ---- divided grids: own cells, with a halo exchange of the others ---- */
 
-MPS_ROW void begin_own(const int dim, const cells *f, int64_t k)
+MPS_ROW void begin_own(const cells *f, int64_t k)
 {
-    begin_row(dim, f, f->list[k]);
+    begin_row(f, f->list[k]);
 }
-MPS__LOOP(begin_listed, begin_own, cells)
+MPS__LOOP_ANY(begin_listed, begin_own, cells)
 
 MPS_ROW void relax_own(const int dim, const cells *f, int64_t k)
 {

@@ -124,13 +124,12 @@ typedef struct rows {
 
 /* Sums: of kappa, of its inverse, of rows; maximum: kappa. A single pair at the end of the kernel
  * has little weight. */
-MPS_ROW void measure_row(const int dim, const rows *f, int64_t i, double *values)
+MPS_ROW void measure_row(const rows *f, int64_t i, double *values)
 {
     const int64_t entries = f->row[i + 1] - f->row[i];
     const double left = f->diagonal[i] - f->shift[i], square = f->squared ? *f->squared : f->square,
                  flux = (left > 0 ? left : 0) * square,
                  kappa = entries > 0 ? flux / (double)entries : 0;
-    (void)dim;
     f->kappa[i] = kappa;
     if (f->entries) f->entries[i] = (double)entries;
     if (kappa > values[3]) values[3] = kappa;
@@ -210,10 +209,10 @@ typedef struct averaging {
     double *square;
 } averaging;
 
-MPS_ROW void average_row(const int dim, const averaging *f, int64_t i)
+MPS_ROW void average_row(const averaging *f, int64_t i)
 {
     const double sum = mps_exact_value(&f->sums[CONDUCTANCES]);
-    (void)dim, (void)i;
+    (void)i;
     *f->square = sum > 0 ? mps_exact_value(&f->sums[SQUARES]) / sum : 0;
 }
 MPS__LOOP_ANY(average_rows, average_row, averaging)
@@ -310,11 +309,10 @@ typedef struct cells {
 } cells;
 
 /* Mean conductivity of a cell's particles, and the sum of k_ij r_ij^2 over their pairs. */
-MPS_ROW void sum_row(const int dim, const cells *f, int64_t t)
+MPS_ROW void sum_row(const cells *f, int64_t t)
 {
     const int64_t c = f->visit ? f->visit[t] : t;
     double kappa = 0, sum = 0;
-    (void)dim;
     for (int32_t p = f->start[t]; p < f->start[t + 1]; p++) {
         const int64_t i = f->list[p];
         kappa += f->point_kappa[i];

@@ -54,9 +54,8 @@ typedef struct placing {
     int32_t *place;
 } placing;
 
-MPS_ROW void place_column(const int dim, const placing *f, int64_t k)
+MPS_ROW void place_column(const placing *f, int64_t k)
 {
-    (void)dim;
     f->place[f->order[k]] = (int32_t)k;
 }
 MPS__LOOP_ANY(place_columns, place_column, placing)

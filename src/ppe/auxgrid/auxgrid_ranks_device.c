@@ -16,16 +16,14 @@ typedef struct packing {
     int64_t arrays, number; /* number of arrays in the packet; index of this one */
 } packing;
 
-MPS_ROW void pick_row(const int dim, const packing *f, int64_t k)
+MPS_ROW void pick_row(const packing *f, int64_t k)
 {
-    (void)dim;
     f->packet[k * f->arrays + f->number] = f->array[f->place[k]];
 }
 MPS__LOOP_ANY(pick_rows, pick_row, packing)
 
-MPS_ROW void put_row(const int dim, const packing *f, int64_t k)
+MPS_ROW void put_row(const packing *f, int64_t k)
 {
-    (void)dim;
     f->array[f->place[k]] = f->packet[k * f->arrays + f->number];
 }
 MPS__LOOP_ANY(put_rows, put_row, packing)

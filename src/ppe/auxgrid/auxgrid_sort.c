@@ -30,13 +30,12 @@ MPS_ROW uint64_t sort_key(int64_t key)
     return (uint64_t)key | (mps__grid_is_red(key) ? 0 : black);
 }
 
-MPS_ROW void rank_row(const int dim, const sorting *f, int64_t i)
+MPS_ROW void rank_row(const sorting *f, int64_t i)
 {
     const int64_t begin = i - i % FIRST_RUN,
                   end = begin + FIRST_RUN < f->n ? begin + FIRST_RUN : f->n;
     const uint64_t own = sort_key(f->point_key[i]);
     int64_t to = begin;
-    (void)dim;
     for (int64_t k = begin; k < end; k++) {
         const uint64_t other = sort_key(f->point_key[k]);
         to += other < own || (other == own && k < i);
@@ -53,18 +52,16 @@ MPS_ROW bool begins(const sorting *f, int64_t a)
     return f->key[a] != no_cell && (a == 0 || f->key[a] != f->key[a - 1]);
 }
 
-MPS_ROW void begin_row(const int dim, const sorting *f, int64_t a)
+MPS_ROW void begin_row(const sorting *f, int64_t a)
 {
-    (void)dim;
     f->number[a] = begins(f, a);
 }
 MPS__LOOP_ANY(begin_rows, begin_row, sorting)
 
 /* Maxima: number of cells, of red cells. */
-MPS_ROW void count_row(const int dim, const sorting *f, int64_t a, double *most)
+MPS_ROW void count_row(const sorting *f, int64_t a, double *most)
 {
     const double cells = (double)f->number[a];
-    (void)dim;
     if (cells > most[0]) most[0] = cells;
     if (!(f->key[a] & black) && cells > most[1]) most[1] = cells;
 }
@@ -116,12 +113,11 @@ typedef struct numbering {
 } numbering;
 
 /* One entry of the sorted order. */
-MPS_ROW void number_row(const int dim, const numbering *f, int64_t a)
+MPS_ROW void number_row(const numbering *f, int64_t a)
 {
     const int32_t point = f->order[a];
     const bool none = f->sorted[a] == no_cell;
     const int64_t cell = f->number[a] - 1;
-    (void)dim;
     f->home[point] = none ? -1 : (int32_t)cell;
     if (none) return;
     f->list[a] = point;
@@ -191,9 +187,8 @@ void mps__grid_number(mps__grid *g, mps__grid_level *l)
 /* ---- many ranks: cells of all ranks, points of this one ---- */
 
 /* Keys of the cells replace those of the points, in the sorted order. */
-MPS_ROW void key_row(const int dim, const numbering *f, int64_t a)
+MPS_ROW void key_row(const numbering *f, int64_t a)
 {
-    (void)dim;
     if (f->sorted[a] == no_cell || (a > 0 && f->sorted[a] == f->sorted[a - 1])) return;
     f->key[f->number[a] - 1] = (int64_t)(f->sorted[a] & ~black);
 }
@@ -210,9 +205,8 @@ int64_t mps__grid_find_device(mps__grid *g, mps__grid_level *l, int64_t points)
     return l->cells;
 }
 
-MPS_ROW void home_row(const int dim, const numbering *f, int64_t i)
+MPS_ROW void home_row(const numbering *f, int64_t i)
 {
-    (void)dim;
     f->home[i] = cell_of(f, f->point_key[i], -1);
 }
 MPS__LOOP_ANY(home_rows, home_row, numbering)
@@ -237,18 +231,16 @@ typedef struct listing {
 } listing;
 
 /* Columns in cells of other ranks get no key, so that they are sorted to the end. */
-MPS_ROW void choose_row(const int dim, const listing *f, int64_t k)
+MPS_ROW void choose_row(const listing *f, int64_t k)
 {
     const int32_t home = f->home[f->column[k]];
-    (void)dim;
     f->point_key[k] = f->owner[home] == f->rank ? f->key[home] : -1;
 }
 MPS__LOOP_ANY(choose_rows, choose_row, listing)
 
-MPS_ROW void list_row(const int dim, const listing *f, int64_t a)
+MPS_ROW void list_row(const listing *f, int64_t a)
 {
     const int64_t visit = f->number[a] - 1;
-    (void)dim;
     if (f->sorted[a] == no_cell) return;
     f->list[a] = f->column[f->order[a]];
     if (a == 0 || f->number[a - 1] <= visit) f->start[visit] = (int32_t)a;
