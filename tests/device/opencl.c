@@ -284,7 +284,7 @@ static bool same_trees(const opencl_kernel *k, const opencl_block *r)
 {
     const int32_t n = (int32_t)(r->bytes / sizeof(int32_t));
     int32_t *const tree[2] = {(int32_t *)(void *)r->begin, (int32_t *)(void *)r->host};
-    if (!strstr(k->name, "bodies_there__") && !strstr(k->name, "levels__")) return false;
+    if (!strstr(k->name, "bodies_device__") && !strstr(k->name, "levels__")) return false;
     for (int32_t i = 0; i < n; i++) {
         int32_t root[2];
         for (int side = 0; side < 2; side++) {
