@@ -50,6 +50,12 @@ static bool is_stale_memory(const mps__runner *h, int32_t channel)
     return stale;
 }
 
+/* Before the arena has memory for this step, in the hook populate, it may be too small. */
+static bool has_memory(const mps__runner *h, const char *array, size_t element)
+{
+    return array + (size_t)h->particles->n * element <= h->channels->arena + h->channels->held;
+}
+
 /* List channels of models first, so that shared memory is reported under their names. */
 static void list_arrays(mps__guard *g, const mps__runner *h, const mps__call *call)
 {
@@ -58,7 +64,8 @@ static void list_arrays(mps__guard *g, const mps__runner *h, const mps__call *ca
         const mps__channel *c = &h->channels->list[k];
         const void *array = mps__channels_array(h->channels, h->particles, k);
         if (array && c->where == MPS__IN_ARENA && !mps__channel_is_scalar(c) &&
-            !is_stale_memory(h, k) && !may_write(h, call, array, mps__channel_element(c)))
+            has_memory(h, array, mps__channel_element(c)) && !is_stale_memory(h, k) &&
+            !may_write(h, call, array, mps__channel_element(c)))
             protect(g, c->spec.name, array, mps__channel_element(c));
     }
     for (int32_t k = 0; k < h->particles->fields; k++) {
