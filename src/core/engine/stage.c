@@ -301,8 +301,9 @@ int mps_ppe_max(const mps_ppe_problem *problem, int32_t count, const mps_sums *r
         launch(d, &k, NULL, maxima, NULL);
     else
         mps_parallel_max(problem->parallel, problem->n, count, run_maxima, &k, maxima);
+    const double here = d && d->failed;
     mps_exact lost = {{0}, 0, 0};
-    mps_exact_add(&lost, 1, &(double){d && d->failed});
+    mps_exact_add(&lost, 1, &here);
     const int failed = mps_ppe_total(problem, &(mps_exact_values){1, count, &lost, maxima});
     return failed || mps_exact_value(&lost) > 0;
 }

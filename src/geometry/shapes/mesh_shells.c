@@ -26,7 +26,7 @@ static double triple_product(double a[3][3])
 /* Solid angle of a triangle over 4 pi (van Oosterom and Strackee 1983). */
 static double angle_of(const mps__mesh *m, int64_t e, const double x[3])
 {
-    double a[3][3], length[3];
+    double a[3][3], length[3] = {0};
     for (int k = 0; k < 3; k++) {
         const double *c = corner_at(m, e, k);
         for (int d = 0; d < 3; d++) a[k][d] = c[d] - x[d];
