@@ -14,8 +14,8 @@ extern const mps_preconditioner_ops mps__preconditioner_jacobi;
 extern const mps_preconditioner_ops mps__preconditioner_ic0;
 extern const mps_preconditioner_ops mps__preconditioner_auxgrid;
 
-/* All built-in ones, terminated by NULL. The first solver is the default. `user` of a solver, passed
- * in *self to create(): NULL, or the mps__context that logs errors of the solver's library. */
+/* All built-in ones, terminated by NULL. The first solver is the default. `user` of a solver,
+ * passed in *self to create(): NULL, or the mps__context that logs errors of its library. */
 extern const mps_solver_ops *const mps__builtin_solvers[];
 extern const mps_preconditioner_ops *const mps__builtin_preconditioners[];
 

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
-/* Loops, sums and scratch for verbs of models, and loops of solvers; the only place with these loops.
- * Rows are owned particles, or the unknowns of an equation. */
+/* Loops, sums and scratch for verbs of models, and loops of solvers; the only place with these
+ * loops. Rows are owned particles, or the unknowns of an equation. */
 #include "runner.h"
 #include "sort.h"
 #include "terms.h"

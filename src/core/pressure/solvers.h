@@ -61,7 +61,7 @@ mps_status mps__solvers_set_limits(mps__solvers *s, const mps_solver_limits *lim
  * MPS_W_NOT_CONVERGED, or MPS_E_SOLVER / MPS_E_NOMEM with the numbers in the text. */
 mps_status mps__solvers_solve(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                               mps_ppe_result *result);
-/* The solution itself: with the selected pair, and with the fallback if the preconditioner fails. */
+/* The solution itself: by the selected pair, and by the fallback if the preconditioner fails. */
 void mps__solvers_run(mps__solvers *s, const mps_ppe_problem *problem, double *p,
                       mps_ppe_result *result);
 mps_status mps__solvers_solve_series(mps__solvers *s, const mps_ppe_problem *problem,

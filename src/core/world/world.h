@@ -105,8 +105,8 @@ typedef struct mps__state {
 #define MPS__STATE(MEMBER)                                                                \
     MEMBER(t)                                                                             \
     MEMBER(step) MEMBER(lost) MEMBER(crossing_time) MEMBER(dt_previous) MEMBER(dt_before) \
-        MEMBER(before) MEMBER(jump) MEMBER(spread) MEMBER(budget) MEMBER(reaction) MEMBER(start_pending)   \
-            MEMBER(level_told) MEMBER(moves_told) MEMBER(window_told)
+        MEMBER(before) MEMBER(jump) MEMBER(spread) MEMBER(budget) MEMBER(reaction)        \
+            MEMBER(start_pending) MEMBER(level_told) MEMBER(moves_told) MEMBER(window_told)
 /* clang-format on */
 
 #define MPS__STATE_SIZE(member) +sizeof(((mps__state *)0)->member)
@@ -257,7 +257,8 @@ void mps__world_view(const mps__world *w, mps_view *v);
 mps_status mps__world_part(mps__world *w, const bool *gone, int64_t count);
 /* Capacity for all particles in the arrays of a step that are not channels. */
 mps_status mps__world_reserve(mps__world *w);
-/* Request the next-step flags, with the tank at a pose, at the end of a step; valid after mps__runner_flush(). lost.c */
+/* Request the next-step flags, with the tank at a pose, at the end of a step; valid after
+ * mps__runner_flush(). lost.c */
 void mps__world_request_flags(mps__world *w, const mps__pose *pose, mps__next_flags *next);
 /* Remove fluid outside of the domain, or behind walls, by the policy. lost.c */
 mps_status mps__world_leave_domain(mps__world *w);
