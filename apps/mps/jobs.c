@@ -196,11 +196,11 @@ static void write_progress(const crew *w, char *line, size_t size)
                                      100 * share);
     }
     const double took = now() - w->begin, sum = (double)(done + failed) + part,
-                 eta = sum > 0 ? took * ((double)w->count - sum) / sum : NAN;
+                 left = sum > 0 ? took * ((double)w->count - sum) / sum : NAN;
     int n = snprintf(line, size, "mps %s: %lld of %lld done, %lld failed", w->p->c->verb,
                      (long long)done, (long long)w->count, (long long)failed);
     if (used > 0) n += snprintf(line + n, size - (size_t)n, ", in progress: %s", running);
-    if (!isnan(eta)) snprintf(line + n, size - (size_t)n, ", eta=%.0f s", eta);
+    if (!isnan(left)) snprintf(line + n, size - (size_t)n, ", left %.0f s", left);
 }
 
 static void show_progress(crew *w, bool terminal)

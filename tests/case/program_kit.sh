@@ -7,6 +7,9 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 failed=0
+# 1: a build with sanitizers, in which runs of many steps are shorter or left out
+slow=$(grep -c __asan_init "$program")
+[ "$slow" = 0 ] || slow=1
 
 fail() {
     echo "FAILED: $*"

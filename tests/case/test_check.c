@@ -5,6 +5,9 @@
 #include <fcntl.h>
 #include <math.h>
 
+/* after cmocka.h */
+#include "../turns.h"
+
 #define TANK                                                        \
     "mps: 1\ndp: 0.5 m\n"                                           \
     "tank: {size: 20 12 m, chamfer: {bottom: 3 3 m, top: 6 6 m}}\n" \
@@ -388,12 +391,13 @@ static void drawings(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(volumes),  cmocka_unit_test(files),          cmocka_unit_test(plates),
         cmocka_unit_test(as_built), cmocka_unit_test(sensors),        cmocka_unit_test(columns),
         cmocka_unit_test(forces),   cmocka_unit_test(motions),        cmocka_unit_test(bare),
         cmocka_unit_test(periods),  cmocka_unit_test(top_rows),       cmocka_unit_test(costs),
         cmocka_unit_test(rates),    cmocka_unit_test(frames_and_gas), cmocka_unit_test(shallow),
         cmocka_unit_test(drawings), cmocka_unit_test(uniform_motions)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

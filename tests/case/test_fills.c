@@ -2,6 +2,9 @@
 /* Fills and rigid bodies of cases: volumes, motions and energies against exact values; refusals. */
 #include "build_kit.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static mps_energy energy(const built *t)
 {
     mps_energy e;
@@ -249,10 +252,10 @@ static void refused(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(fills),          cmocka_unit_test(bodies),
-        cmocka_unit_test(few_rows),       cmocka_unit_test(two_fluids),
-        cmocka_unit_test(start_velocity), cmocka_unit_test(standing_wave),
-        cmocka_unit_test(oscillation),    cmocka_unit_test(refused)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(fills),          cmocka_unit_test(bodies),
+                                 cmocka_unit_test(few_rows),       cmocka_unit_test(two_fluids),
+                                 cmocka_unit_test(start_velocity), cmocka_unit_test(standing_wave),
+                                 cmocka_unit_test(oscillation),    cmocka_unit_test(refused)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

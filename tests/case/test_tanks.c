@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Volumes, levels and natural periods of tanks that cases build, against their exact values. */
 #include "build_kit.h"
+#include "../every.h"
 #include "section.h"
 
 /* Volume of all fluid with its half cells at walls. */
@@ -71,6 +72,7 @@ static void chamfered_3d(void **state)
     for (int k = 0; k < 2; k++) {
         char text[500];
         built t;
+        if (!has_turn(k, 0, 2)) continue;
         snprintf(text, sizeof text,
                  "mps: 1\ndim: 3\ndp: 40 mm\ntank: {size: %s m, chamfer: {bottom: 0.4 0.4 m, top: "
                  "0.8 0.8 m, across: %c}}\nfill: [{water: {depth: 1 m}}]\nrun: {until: 1 s}\n",

@@ -66,7 +66,7 @@ ends 130 "SIGTERM with a closed pipe" /dev/null
 
 # a line every 10 s; the silent run, which began before, has none when it has taken a step more
 pid=$batch
-wait_for grep -q eta= batch.log
+wait_for grep -q left= batch.log
 pid=$silent
 wait_for more_lines silent/steps.csv "$(wc -l <silent/steps.csv)"
 kill -TERM $batch $silent
@@ -74,9 +74,9 @@ ends 130 "the silent run" silent.log
 pid=$batch
 ends 130 "the batch run" batch.log
 number='[0-9.e+-]+'
-grep -E "^t=$number step=[0-9]+ dt=$number wall=$number eta=$number\$" batch.log | sed 's/.*wall=\([0-9.]*\).*/\1/' |
+grep -E "^t=$number step=[0-9]+ dt=$number wall=$number left=$number\$" batch.log | sed 's/.*wall=\([0-9.]*\).*/\1/' |
     awk '{if ($1 - last < 9.9) exit 1; last = $1} END {exit !(last >= 9.9)}' || fail "not a line of progress every 10 s: $(cat batch.log)"
-grep -q 'eta=' silent.log && fail "--quiet shows progress"
+grep -q 'left=' silent.log && fail "--quiet shows progress"
 complete batch
 
 if [ $failures -gt 0 ]; then exit 1; fi

@@ -14,6 +14,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "../turns.h"
 #include "force_fixture.h"
 
 /* What the kit printed last, on both streams. */
@@ -478,7 +479,7 @@ static void hook_by_name(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(passes),
         cmocka_unit_test(notes_a_verb_without_effect),
         cmocka_unit_test(limit_is_an_effect),
@@ -496,5 +497,6 @@ int main(void)
         cmocka_unit_test(calls_on_one_rank),
         cmocka_unit_test(hook_by_name),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -7,8 +7,8 @@ drawn threads, ranks, device, locale and interruption, alone or as one of two eq
 the seed; each next draw is, of some random ones, that which has most pairs of levels that no draw had before.
 
 Invariants: `mps check` and `mps run` agree; both runs have the same bytes of probes, momentum, frames and checkpoint; the
-volume stays; the lattice of the walls is one layer; at rest the force on the tank is the weight; both make report.html
-and `mps stats` reads the folder. An FMU of the case has the pressures of the run.
+volume stays; at rest the force on the tank is the weight; both make report.html and `mps stats` reads the folder. An FMU
+of the case has the pressures of the run. Walls of tanks are looked at in tanks.py.
 
 Exit code 1: an invariant is violated. 77: no python3 with ctypes, or the program is missing.
 """

@@ -375,7 +375,7 @@ static void frames_about_peaks(void **unused)
     scene_remove(&s);
 }
 
-/* The page of a run in progress states this at the top; models in use are named. */
+/* The page of a run in progress states this at the top; models in use and plug-ins are named. */
 static void unfinished(void **unused)
 {
     scene s = {.dim = 2, .fluid = 20, .frames = 0, .rows = 20};
@@ -383,12 +383,17 @@ static void unfinished(void **unused)
     scene_create(&s);
     text_write(&s, "summary.json",
                "{\"dim\": 2, \"dp\": 0.05, \"t_end\": 0.19, \"until\": 7, \"status\": "
-               "\"unfinished\", \"models\": [\"source.volume\", \"screen.mine\"]}");
+               "\"unfinished\", \"models\": [\"source.volume\", \"screen.mine\"], \"plugins\": [{"
+               "\"name\": \"screen\", \"version\": \"1.2\", \"file\": \"a&b.so\", \"sha256\": "
+               "\"0f\", \"items\": [{\"kind\": \"model\", \"name\": \"screen.mine\"}, {\"kind\": "
+               "\"load\", \"name\": \"wind\"}]}]}");
     CHECK_PAGE(&s, "This run is not finished: it has come to t = 0.19 s of 7 s.",
+               "plug-in screen</th><td>model screen.mine, load wind; version 1.2, file a&amp;b.so, "
+               "SHA-256 0f</td>",
                "not finished</p>", "models in use</th><td>source.volume, screen.mine</td>",
                "!complete</p>");
     write_summary(&s, "");
-    CHECK_PAGE(&s, "!This run is not finished", "!models in use");
+    CHECK_PAGE(&s, "!This run is not finished", "!models in use", "!plug-in ");
     scene_remove(&s);
 }
 

@@ -5,6 +5,9 @@
 #include "phase/gas_pocket.h"
 #include "scene.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 /* ---- scenes ---- */
 
 /* Liquid in a tank, but for a box in it that may have a way to the surface. */
@@ -209,11 +212,12 @@ static void costs_with_a_pocket(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(scenes_with_gas),
         cmocka_unit_test(failing_devices),
         cmocka_unit_test(costs_without_a_pocket),
         cmocka_unit_test(costs_with_a_pocket),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

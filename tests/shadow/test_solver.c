@@ -5,6 +5,9 @@
 #include "scene.h"
 #include "solutions.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static void solutions(void **state)
 {
     mps_sim *sim = new_sim(2, 0.1);
@@ -161,10 +164,11 @@ static void costs(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(solutions),
         cmocka_unit_test(grids),
         cmocka_unit_test(costs),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -5,6 +5,9 @@
 #include "tank_fixture.h"
 #include <mps/model.h>
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double GRAVITY = 9.81, RHO = 1000, PI = 3.14159265358979;
 
 /* Of the walls of a tank at rest, over rho g dp. */
@@ -351,10 +354,10 @@ static void jump_pulls(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
-        cmocka_unit_test(still_tank),   cmocka_unit_test(sides_of_a_plate),
-        cmocka_unit_test(knuckle),      cmocka_unit_test(rolling),
-        cmocka_unit_test(void_reaches), cmocka_unit_test(full_tank_pulls),
-        cmocka_unit_test(jump_pulls)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(still_tank),   cmocka_unit_test(sides_of_a_plate),
+                                 cmocka_unit_test(knuckle),      cmocka_unit_test(rolling),
+                                 cmocka_unit_test(void_reaches), cmocka_unit_test(full_tank_pulls),
+                                 cmocka_unit_test(jump_pulls)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

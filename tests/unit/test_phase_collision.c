@@ -3,6 +3,9 @@
  * plates, corners of tanks and between solids. */
 #include "phase_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double rho[2] = {1000, 1};
 
 /* Velocities after one step with collisions alone, by id. */
@@ -434,16 +437,17 @@ static void order(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(momentum),
-                                       cmocka_unit_test(lone_pair),
-                                       cmocka_unit_test(any_spacing),
-                                       cmocka_unit_test(edge_is_a_post),
-                                       cmocka_unit_test(corners_are_closed),
-                                       cmocka_unit_test(edges_are_closed),
-                                       cmocka_unit_test(feet_are_closed),
-                                       cmocka_unit_test(floor_stops_drops),
-                                       cmocka_unit_test(shift_keeps_off),
-                                       cmocka_unit_test(out_of_the_wall),
-                                       cmocka_unit_test(order)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(momentum),
+                                 cmocka_unit_test(lone_pair),
+                                 cmocka_unit_test(any_spacing),
+                                 cmocka_unit_test(edge_is_a_post),
+                                 cmocka_unit_test(corners_are_closed),
+                                 cmocka_unit_test(edges_are_closed),
+                                 cmocka_unit_test(feet_are_closed),
+                                 cmocka_unit_test(floor_stops_drops),
+                                 cmocka_unit_test(shift_keeps_off),
+                                 cmocka_unit_test(out_of_the_wall),
+                                 cmocka_unit_test(order)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

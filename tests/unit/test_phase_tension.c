@@ -3,6 +3,9 @@
  * inside a droplet; tension.jump: the same pressure with less motion. */
 #include "phase_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double sigma = 0.07;
 
 /* A droplet of phase 1 in the middle of a block of phase 0; off: offset of its centre from the
@@ -450,16 +453,17 @@ static void time_step(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(circles),
-                                       cmocka_unit_test(spheres),
-                                       cmocka_unit_test(heavy_drop),
-                                       cmocka_unit_test(flat),
-                                       cmocka_unit_test(derivatives),
-                                       cmocka_unit_test(three_phases),
-                                       cmocka_unit_test(laplace_pressure),
-                                       cmocka_unit_test(time_step),
-                                       cmocka_unit_test(pairs),
-                                       cmocka_unit_test(pairs_refused),
-                                       cmocka_unit_test(jump_at_rest)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(circles),
+                                 cmocka_unit_test(spheres),
+                                 cmocka_unit_test(heavy_drop),
+                                 cmocka_unit_test(flat),
+                                 cmocka_unit_test(derivatives),
+                                 cmocka_unit_test(three_phases),
+                                 cmocka_unit_test(laplace_pressure),
+                                 cmocka_unit_test(time_step),
+                                 cmocka_unit_test(pairs),
+                                 cmocka_unit_test(pairs_refused),
+                                 cmocka_unit_test(jump_at_rest)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

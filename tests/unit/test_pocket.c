@@ -2,6 +2,7 @@
 /* The model gas.pocket in runs: without a pocket nothing changes; bytes do not depend on threads
  * and restarts; gas is kept in a violent flow; walls in a pocket show its pressure. */
 #include "phase/gas_pocket.h"
+#include "../every.h"
 #include "checkpoint_editor.h"
 #include "frame_fixture.h"
 
@@ -271,11 +272,12 @@ static void gas_is_kept(void **state)
     (void)state;
     scene s = dam;
     books b = {0};
+    if (every(2) > 1) s.dp *= 1.5; /* with the pockets of a coarse run */
     mps_sim *sim = build(&s);
     ASSERT_OK(sim, mps_run(sim, 1.6, follow_books, &b));
     print_message("%d pockets at most, %.4f m2 enclosed, %.4f m2 vented, %.0f Pa at most\n",
                   b.pockets, b.closed, b.vented, b.largest);
-    assert_true(b.pockets > 1);
+    assert_true(b.pockets > (every(2) == 1));
     assert_true(b.vented > 0 && b.closed > b.vented - 1e-12);
     assert_true(b.largest > 100 && b.largest < 1e5);
     mps_sim_destroy(sim);

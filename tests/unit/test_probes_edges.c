@@ -5,6 +5,9 @@
 #include "../every.h"
 #include "probe_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double deep = 0.1; /* of the liquid in 3-D [m] */
 
 /* A body: a convex polygon of sides n.x = offset, the same along the third axis. */
@@ -201,8 +204,8 @@ static void prisms(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(faces_of_a_box),
-                                       cmocka_unit_test(linear_on_each),
-                                       cmocka_unit_test(no_overshoot), cmocka_unit_test(prisms)};
+    struct CMUnitTest tests[] = {cmocka_unit_test(faces_of_a_box), cmocka_unit_test(linear_on_each),
+                                 cmocka_unit_test(no_overshoot), cmocka_unit_test(prisms)};
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

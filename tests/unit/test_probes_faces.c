@@ -4,6 +4,9 @@
 #include "../every.h"
 #include "probe_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double slope[3] = {700, -9810, 2000};
 
 /* Linear pressure on the walls, in the tank's frame. */
@@ -306,12 +309,13 @@ static void beyond_the_end(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(edges_and_corners),   cmocka_unit_test(baffles),
         cmocka_unit_test(sides_of_baffles),    cmocka_unit_test(inclined_plates),
         cmocka_unit_test(bodies_on_the_floor), cmocka_unit_test(sloping_tanks),
         cmocka_unit_test(curved_walls),        cmocka_unit_test(off_the_wall),
         cmocka_unit_test(beyond_the_end),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -4,6 +4,9 @@
 #include "cloud.h"
 #include "probe_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 /* p = a + b.X in the tank's frame on all particles. */
 static void write_linear(mps_sim *sim, double a, const double b[3])
 {
@@ -288,12 +291,13 @@ static void follows_the_particles(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(linear_up_the_wall), cmocka_unit_test(any_diameter_and_place),
         cmocka_unit_test(inclined_wall),      cmocka_unit_test(plate),
         cmocka_unit_test(sides_of_a_plate),   cmocka_unit_test(half_dry),
         cmocka_unit_test(partly_covered),     cmocka_unit_test(cut_off_at_edges),
         cmocka_unit_test(no_jumps),           cmocka_unit_test(follows_the_particles),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

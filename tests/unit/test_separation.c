@@ -8,6 +8,9 @@
 #include <stdlib.h>
 #include <unistd.h>
 
+/* after cmocka.h */
+#include "../turns.h"
+
 static const double GRAVITY = 9.81, RHO = 1000;
 
 /* Of the steps so far. */
@@ -409,12 +412,13 @@ static void threads_do_not_matter(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(wall_that_leaves),       cmocka_unit_test(edge_of_a_box),
         cmocka_unit_test(plate_that_leaves),      cmocka_unit_test(least_by_all_particles),
         cmocka_unit_test(jump_keeps_its_suction), cmocka_unit_test(full_tank_pulls),
         cmocka_unit_test(short_step_is_no_jump),  cmocka_unit_test(checkpoint_goes_on),
         cmocka_unit_test(threads_do_not_matter),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -3,6 +3,9 @@
  * spacings. */
 #include "stl_fixture.h"
 
+/* after cmocka.h */
+#include "../turns.h"
+
 enum { CORNERS = 8 };
 
 static uint32_t seed;
@@ -211,10 +214,11 @@ static void at_rest(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {
+    struct CMUnitTest tests[] = {
         cmocka_unit_test(in_the_plane),
         cmocka_unit_test(in_space),
         cmocka_unit_test(at_rest),
     };
+    take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, make_folder, remove_folder);
 }

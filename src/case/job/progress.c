@@ -49,13 +49,13 @@ bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size
     /* a tenth of a second covers only a few steps */
     p->rate = p->rate > 0 ? 0.8 * p->rate + 0.2 * rate : rate;
     double done = info->t - p->t_begin;
-    double eta = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;
+    double rest = done > 0 ? (now - p->start) * (p->t_end - info->t) / done : 0;
     double percent = 100 * info->t / p->t_end;
     p->shown = now;
     p->steps_shown = info->step;
     if (p->terminal) {
         char left[32];
-        progress_time(left, sizeof left, eta);
+        progress_time(left, sizeof left, rest);
         const char *on = p->colour ? "\033[1m" : "", *off = p->colour ? "\033[0m" : "";
         snprintf(text, size,
                  "\r%s%5.1f %%%s  t %.3f s  dt %.1e  CFL %.2f  PPE %3d  %.0f kp/s  left %s\033[K",
@@ -63,8 +63,8 @@ bool mps__progress_step(progress *p, const mps_step_info *info, char *text, size
                  p->rate / 1000, left);
         p->line = true;
     } else {
-        snprintf(text, size, "t=%.6g step=%lld dt=%.3e wall=%.1f eta=%.1f\n", info->t,
-                 (long long)info->step, info->dt, now - p->start, eta);
+        snprintf(text, size, "t=%.6g step=%lld dt=%.3e wall=%.1f left=%.1f\n", info->t,
+                 (long long)info->step, info->dt, now - p->start, rest);
     }
     return true;
 }

@@ -133,11 +133,43 @@ static void row_models(FILE *out, const page_run *r)
     fputs("</td></tr>\n", out);
 }
 
+static void cell_text(FILE *out, const json_value *from, const char *key)
+{
+    const char *text = mps__json_text(mps__json_get(from, key));
+    mps__html(out, text ? text : "-");
+}
+
+/* Plug-ins of the case: what each provides, its version, file and hash. */
+static void rows_plugins(FILE *out, const page_run *r)
+{
+    const json_value *list = mps__json_get(r->summary, "plugins");
+    for (const json_value *one = list ? list->first : NULL; one; one = one->next) {
+        const json_value *items = mps__json_get(one, "items");
+        fputs("<tr><th scope=\"row\">plug-in ", out);
+        cell_text(out, one, "name");
+        fputs("</th><td>", out);
+        for (const json_value *item = items ? items->first : NULL; item; item = item->next) {
+            cell_text(out, item, "kind");
+            fputc(' ', out);
+            cell_text(out, item, "name");
+            fputs(item->next ? ", " : "; ", out);
+        }
+        fputs("version ", out);
+        cell_text(out, one, "version");
+        fputs(", file ", out);
+        cell_text(out, one, "file");
+        fputs(", SHA-256 ", out);
+        cell_text(out, one, "sha256");
+        fputs("</td></tr>\n", out);
+    }
+}
+
 static void write_run(FILE *out, const page_run *r)
 {
     char text[TEXT_NUMBER];
     table_begin(out, "Run");
     row_models(out, r);
+    rows_plugins(out, r);
     row_number(out, r, "time reached", "t_end", "s");
     row_whole(out, r, "particles of fluid", "n_fluid");
     row_whole(out, r, "particles of walls", "n_wall");
