@@ -12,8 +12,8 @@
  *  Order: hooks run in the order of MPS_POPULATE .. MPS_SHIFT. Within a hook a verb that writes a
  *  channel runs before verbs that change it, and these run before verbs that only read it. `after`
  *  and `before` of a verb take precedence over this order. If neither decides, the order of
- *  registration holds. mps_verb_info_get() returns the resulting order. If verbs wait for each
- *  other in a cycle, the step fails with MPS_E_STATE and the names of two of their models.
+ *  registration holds. mps_verb_info_get() returns the resulting order. If the order of verbs is
+ *  cyclic, the step fails with MPS_E_STATE and the names of two of their models.
  *
  *  Channels are resolved at the beginning of the first step after a change of models. This step
  *  fails with MPS_E_STATE if a verb uses a channel that no active model provides, or if the channel
@@ -22,7 +22,9 @@
  *  Optional channels that built-in models use if a model provides them:
  *    "viscosity" [Pa s], 1 number, MPS_LIFE_STEP: "viscosity.laplacian" and "viscosity.pair" use it
  *    instead of the viscosity of the phase. Write it in MPS_PREPARE. The time control uses only the
- *    viscosities of the phases, so such a model also limits the step, in MPS_LIMIT.
+ *    viscosities of the phases, so such a model must also limit the step, in MPS_LIMIT.
+ *    "interface_distance" [m], "pressure_jump" [Pa], "wetted_share" [-]: the fluxes of mps/flux.h
+ *    use them; "reference.lid" also uses "wetted_share".
  *
  *  Tutorial: docs/tutorials/your_own_model.md. The package has a conformance kit, model_kit.h,
  *  which runs a model and reports the rules that it violates. */
@@ -51,15 +53,15 @@ enum {
     MPS_USE_CHANGE = 5,
     /** The channel is optional: its array is NULL if no active model provides it. */
     MPS_USE_OPTIONAL = 8,
-    /** Reads values of the neighbours of dummies too. Implies MPS_USE_NEIGHBOURS. Without an active
-     *  model with this access, dummies have empty rows in mps_view.near and .far. */
+    /** Also reads values at the neighbours of dummies. Implies MPS_USE_NEIGHBOURS. If no active
+     *  model has this access, dummies have empty rows in mps_view.near and .far. */
     MPS_USE_DUMMIES = 16,
-    /** Reads the near pair lists of neighbours within the far radius too, and values of the
-     *  particles in these lists. Implies MPS_USE_NEIGHBOURS. */
+    /** Also reads the near pair lists of the neighbours within the far radius, and the values of
+     *  the particles in these lists. Implies MPS_USE_NEIGHBOURS. */
     MPS_USE_ROWS = 32
 };
 
-/** A channel that a verb uses. Its array is s->data[k], k the index in mps_verb.uses. */
+/** A channel that a verb uses. mps_stage.data[k] is the array of mps_verb.uses[k]. */
 typedef struct mps_use {
     /** Name of the channel. */
     const char *channel;
@@ -113,7 +115,7 @@ typedef struct mps_setting {
     const char *unit;
     /** One line: what it does. */
     const char *help;
-    /** MPS_TYPE_... */
+    /** MPS_TYPE_REAL, MPS_TYPE_INTEGER or MPS_TYPE_FLAG */
     int32_t type;
     /** Default. */
     double initial;
@@ -172,24 +174,26 @@ typedef struct mps_model_ops {
     const mps_channel *channels;
     /** Its verbs. */
     const mps_verb *verbs;
-    /** NULL, or create a state in *self; on entry *self is `user`. Non-zero: out of memory.
-     *  Checkpoints do not save the state: data that later steps depend on must be in channels of
-     *  MPS_LIFE_PARTICLE or in numbers of mps_stage_state(). */
+    /** NULL, or a function that creates the state of the model in *self; on entry *self is `user`.
+     *  It returns 0, or non-zero if memory is insufficient. Checkpoints do not save the state: data
+     *  that later steps depend on must be in channels of MPS_LIFE_PARTICLE or in numbers of
+     *  mps_stage_state(). */
     int (*create)(const mps_allocator *allocator, void **self);
     /** Frees the state of create; required if create is not NULL. */
     void (*destroy)(const mps_allocator *allocator, void *self);
     /** Data of the caller. If create is NULL, verbs get it as s->self. */
     void *user;
-    /** NULL, or the largest distance at which its verbs read particles, if it exceeds the far
-     *  radius [m].
+    /** NULL, or a function that returns the largest distance at which verbs of the model read
+     *  particles [m]. It is needed only if this distance exceeds the far radius.
      *  @param setting  values of the settings in the order of `settings`
      *  @param dp  particle spacing [m] */
     double (*reach)(const double *setting, double dp);
-    /** [part_count] names of solids without particles whose forces it reports: mps/reaction.h */
+    /** [part_count] names of solids without particles; the model reports their forces
+     *  (mps/reaction.h). */
     const char *const *parts;
-    /** NULL, or validate the numbers of mps_stage_state() in a checkpoint: another build of the
-     *  model may have written them, or the file may be manipulated. Non-zero: the checkpoint is
-     *  refused with `why`, and the simulation is unchanged.
+    /** NULL, or a function that validates the numbers of mps_stage_state() in a checkpoint: another
+     *  build of the model may have written them, or the file may be manipulated. If it returns
+     *  non-zero, the checkpoint is refused with `why`, and the simulation is unchanged.
      *  @param numbers  [count], finite @param why  [size] out: the reason, one line */
     int (*check)(const double *numbers, int64_t count, char *why, size_t size);
 } mps_model_ops;

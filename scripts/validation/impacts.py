@@ -33,12 +33,12 @@ def flat(o, refs):
                       relative("impulse of the wall's force", number(o, "impulse_force"), exact, "{:.3f}"),
                       relative("impulse of the fluid", number(o, "impulse_fluid"), exact, "{:.3f}", 5, 5),
                       relative("walls / fluid, to 4 dp/U", number(o, "impulse_force_late") / number(o, "impulse_fluid_late"), 1, "{:.3f}", 5, 5),
-                      fact("largest force before / (rho U^2 H)", number(o, "force_before"), "{:.2g}"), *peaks(o)]
+                      fact("largest force before contact / (rho U^2 H)", number(o, "force_before"), "{:.2g}"), *peaks(o)]
 
 
 def film(o, refs):
     """Impulses in rho U dp h, to 4 dp/U after contact, from there to 12 dp/U, and both. Liquid of the half cells of the floor belongs to the
-    walls: at first they have more of the impulse than their share, later less."""
+    walls: at first they have more of the impulse than their fraction, later less."""
     fluid, exact, half = number(o, "impulse_fluid"), number(o, "exact_fluid"), number(o, "exact_half_cell")
     walls, late_fluid, late_walls = number(o, "impulse_walls"), number(o, "late_fluid"), number(o, "late_walls")
     share = half / exact
@@ -47,7 +47,7 @@ def film(o, refs):
             relative("from 4 to 12 dp/U, fluid", late_fluid, number(o, "late_exact"), "{:.2f}"),
             relative("from 4 to 12 dp/U, wall", late_walls, number(o, "late_exact") * share, "{:.2f}"),
             relative("walls / (fluid and its half cells)", (walls + late_walls) / ((fluid + late_fluid) * share), 1, "{:.2f}", 15, 15),
-            relative("the same to 4 dp/U", walls / (fluid * share), 1, "{:.2f}"), *peaks(o)]
+            relative("walls / (fluid and its half cells), to 4 dp/U", walls / (fluid * share), 1, "{:.2f}"), *peaks(o)]
 
 
 def wedge(o, refs):
@@ -79,16 +79,16 @@ def column(o, refs):
             relative("impulse of the fluid / exact", number(o, "impulse_fluid"), 1, "{:.3f}", 5, 5),
             below("rebound / U", max(0, number(o, "rebound")), "{:.3f}", 0.02),
             relative("pressure at rest", number(o, "still"), 1, "{:.4f}", 0.5, 2),
-            fact("its least and", number(o, "still_least"), "{:.4f}"), fact("largest value", number(o, "still_largest"), "{:.4f}"),
+            fact("pressure at rest, least", number(o, "still_least"), "{:.4f}"), fact("pressure at rest, largest", number(o, "still_largest"), "{:.4f}"),
             at_least("least pressure", number(o, "least"), "{:+.3f}", -SUCTION, -SUCTION), *peaks(o)]
 
 
 def leaving_floor(o, refs):
-    """Pressures in rho g h. The void reaches the rim; the middle is shut off from it, so that it and its gap have no exact answer."""
-    return [at_least("rim, least 10 ms mean", number(o, "rim_least_mean"), "{:+.3f}", -SUCTION, -SUCTION),
-            fact("middle, least 10 ms mean", number(o, "middle_least_mean"), "{:+.3f}"), fact("middle, mean", number(o, "middle_mean"), "{:+.3f}"), fact("rim, mean", number(o, "rim_mean"), "{:+.3f}"),
+    """Pressures in rho g h. The void reaches the edge of the floor. It does not reach the middle: its pressure and gap have no exact solution."""
+    return [at_least("edge of the floor, least 10 ms mean", number(o, "rim_least_mean"), "{:+.3f}", -SUCTION, -SUCTION),
+            fact("middle, least 10 ms mean", number(o, "middle_least_mean"), "{:+.3f}"), fact("middle, mean", number(o, "middle_mean"), "{:+.3f}"), fact("edge of the floor, mean", number(o, "rim_mean"), "{:+.3f}"),
             fact("gap / (g t^2/2)", number(o, "gap"), "{:.3f}"),
-            relative("fall of the liquid / (g t)", number(o, "fall_fluid"), 1, "{:.3f}", 5, 5)]
+            relative("speed of the falling liquid / (g t)", number(o, "fall_fluid"), 1, "{:.3f}", 5, 5)]
 
 
 def box(o, refs):

@@ -222,19 +222,19 @@ const mps__pass mps__pass_check = {.name = "check",
                                    .uses = check_uses,
                                    .run = check};
 
-static mps_status share(mps_stage *s)
+static mps_status exchange(mps_stage *s)
 {
     return mps__world_exchange_step(mps__step_of(s)->w);
 }
 
 /* Halo exchange of changed fields, for leases and the next step. */
-const mps__pass mps__pass_exchange = {.name = "share",
+const mps__pass mps__pass_exchange = {.name = "exchange",
                                       .hook = MPS_SHIFT,
                                       .place = MPS__AFTER_MODELS,
                                       .stage = MPS_STAGE_CORRECT,
                                       .device = true,
                                       .undeclared = true,
-                                      .run = share};
+                                      .run = exchange};
 
 typedef struct keep_fields {
     const double *wall_pressure;

@@ -61,7 +61,8 @@ typedef struct mps__jump {
     int64_t since; /* steps */
 } mps__jump;
 
-/* Settings by the user, stored in the text of a checkpoint. */
+/* Settings of the user. A checkpoint stores them as text, except control, speed_limit and
+ * lost_policy. */
 typedef struct mps__setup {
     int32_t dim, lost_policy;
     double dp_given; /* by the user; dp is adjusted to the cells of the first tank */
