@@ -3,8 +3,10 @@
 #include "cli.h"
 #include "info.h"
 #include "record.h"
+#include "regular.h"
 #include "summary.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -226,11 +228,13 @@ int verb_info(const choices *c)
 {
     static head h;
     struct stat status;
-    FILE *file = NULL;
+    const char *why;
     h.path = c->file[0];
     if (stat(h.path, &status) == 0 && S_ISDIR(status.st_mode)) return describe_folder(h.path);
-    if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(file = fopen(h.path, "rb"))) {
-        fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
+    FILE *file = mps__regular_stream(h.path, O_RDONLY, &why);
+    if (!file || fstat(fileno(file), &status) != 0) {
+        fprintf(stderr, "mps info: %s: %s\n", h.path, why ? why : strerror(errno));
+        if (file) fclose(file);
         return MPS_EXIT_USAGE;
     }
     h.file = file;

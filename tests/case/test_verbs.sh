@@ -188,7 +188,32 @@ expect 0 "series of frames" "$program" info frames.pvd
 printf '<VTKFile type="Other">' > other.vtk
 expect 2 "is no file of mps" "$program" info other.vtk
 mkfifo pipe
-expect 2 "pipe: is no file" "$program" info pipe
+piped() { # wanted text, command ..: a pipe without a writer is refused, nothing waits for one
+    expect 2 "$1" timeout 20 "$program" "${@:2}"
+    says "$fifo"
+}
+fifo="it is a pipe \(FIFO\), no regular file"
+piped "pipe: " info pipe
+piped "pipe: " check pipe
+printf 'base: pipe\n' > on_pipe.yaml
+piped "$work/pipe' cannot be read: " check on_pipe.yaml
+piped "pipe: " check small.yaml --set "motion={file: pipe}"
+piped "/pipe: " run small.yaml -q -o none --set "reference={eta: {file: pipe}}"
+piped "pipe" check small.yaml --plugin ./pipe
+piped "\"$work/pipe\": " check small.yaml --set "dim=3" --set "tank={stl: pipe, unit: m}" --set "sensors={}"
+piped "pipe: " compare dry dry pipe
+piped "pipe: " stats pipe
+cp -r done piped # a folder of a run, with a pipe instead of one of its files
+for row in "case.yaml resume" "checkpoint.mps resume" "probes.csv stats" "probes.csv report" "summary.json report"; do
+    read -r file verb <<< "$row"
+    mv piped/$file kept.file 2> /dev/null
+    mkfifo piped/$file
+    piped "$file" "$verb" piped
+    rm piped/$file
+    mv kept.file piped/$file 2> /dev/null
+done
+expect 2 "" timeout 20 "$program" info /dev/null
+says "it is a device, no regular file"
 mkdir -p taken/report.html
 expect 2 "without outputs of a run" "$program" info taken
 # checkpoints: a head of 16 bytes, parts of a title of 40, bytes, number
