@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps info: detects the type of a file from its contents, and describes it. */
 #include "cli.h"
+#include "escape.h"
 #include "info.h"
 #include "record.h"
 #include "regular.h"
@@ -187,16 +188,17 @@ static int describe(head *h)
 /* Print the case of a run, and its progress. */
 static void print_run(const char *path)
 {
-    char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400];
+    char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400], place[4096];
     summary_text(path, "case", name);
     summary_text(path, "title", title);
     printf("folder of a run%s%s%s%s\n", name[0] ? " of " : "", name,
            strcmp(name, title) != 0 ? ": " : "", strcmp(name, title) != 0 ? title : "");
+    mps__shell_word(path, place, sizeof place);
     if (summary_unfinished(path, record_last(path), state, sizeof state))
         printf("  %s\n", state);
     else if (summary_is_done(path))
         printf("  done, to t = %.9g s, %.9g steps; 'mps resume %s --set run.until=..' extends it\n",
-               summary_number(path, "t_end"), summary_number(path, "steps"), path);
+               summary_number(path, "t_end"), summary_number(path, "steps"), place);
 }
 
 /* Describe the outputs in the folder of a run. */

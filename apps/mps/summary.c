@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "summary.h"
+#include "escape.h"
 #include "json.h"
 #include "regular.h"
 #include <fcntl.h>
@@ -118,8 +119,11 @@ bool summary_unfinished(const char *folder, double t, char *out, size_t size)
     int used = snprintf(out, size, "%s, at t = %.5g s", part ? "unfinished" : status,
                         isnan(t) ? reached : t);
     if (!isnan(until)) used += snprintf(out + used, size - (size_t)used, " of %.5g s", until);
-    if (part)
+    if (part) {
+        char place[PATH_SIZE];
+        mps__shell_word(folder, place, sizeof place);
         snprintf(out + used, size - (size_t)used,
-                 "; if it is not in progress, 'mps resume %s' continues it", folder);
+                 "; if it is not in progress, 'mps resume %s' continues it", place);
+    }
     return true;
 }

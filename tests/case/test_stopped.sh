@@ -95,5 +95,38 @@ for folder in TERM HUP USR1 USR2 XCPU early late; do
 done
 [ "$(wc -l < late.csv)" -lt "$(wc -l < late/probes.csv)" ] || fail "a run that was killed was not continued"
 
+# ---- the commands that texts contain continue the run, whatever its folder is called
+told() { # text before the command, text behind it, options: runs the command that the log has
+    local command
+    command=$(sed -n "s/^.*$1\(mps resume .*\)$2\$/\1/p" log)
+    [ -n "$command" ] || fail "no command in: $(cat log)"
+    eval "${command/#mps/\"\$program\"} -q $3" > log 2>&1 || fail "$command: $(cat log)"
+}
+odd='my "tank", at $5'
+begin "$odd" plain.yaml --set "impacts={deviations: 0.5, window: 0.2 s, least_events: 9, scale: 40, density_ratio: 1.025}"
+kill -TERM $pid
+ends 130
+cp "$odd.log" log
+end=$(tail -1 "$odd/steps.csv" | awk -F, '{ printf "%.1f", $1 + 3 }')
+told "there; " " continues" "--set run.until='$end s'"
+end=$(awk -v t="$end" 'BEGIN { print t + 0.2 }')
+expect 0 "" "$program" info "$odd"
+told "steps; '" " --set run.until=.*" "--set run.until='$end s'"
+expect 0 "done, to t = $end s" "$program" info "$odd"
+
+# ---- statistics of a model: what is of the model, and what is at full scale
+expect 0 "" "$program" stats "$odd"
+says "impacts.scale 40, impacts.density_ratio 1.025$"
+says "^P: [2-8] events, .* a minute, highest [0-9.]+ k?Pa in the model \([0-9.]+ k?Pa at full scale\) at [0-9.]+ s$"
+says "^  a model: at full scale pressures are 41 times and times 6.325 times as large; all but 'at full scale' is of the model$"
+end=$(sed -n "s/.*a record of about .* s: mps resume .* --set run.until='\(.*\) s'$/\1/p" log)
+told "a record of about .* s: " ""
+expect 0 "done, to t = $end s" "$program" info "$odd"
+expect 0 "  exceeded once in 3 h at full scale, 0.4743 h in the model (" "$program" stats "$odd" --set impacts.least_events=2
+says "^    Weibull  +[0-9.]+ k?Pa in the model \([0-9.]+ k?Pa at full scale\), band [0-9.]+ k?Pa in the model \("
+says "^constants by --set: impacts.least_events 2$"
+sed -n 's/.*"weibull".*"value": \([-+.0-9e]*\),.*"full_scale": \([-+.0-9e]*\),.*/\1 \2/p' "$odd/statistics.json" |
+    awk '{ n++; if (($2 / $1 / 41 - 1) ^ 2 > 1e-14) exit 1 } END { exit !n }' || fail "full scale of $(cat "$odd/statistics.json")"
+
 [ $failed -eq 0 ] && echo "stopped runs: all right"
 exit $failed
