@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Parses the command line. */
 #include "cli.h"
+#include "escape.h"
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -132,10 +133,9 @@ static int take(choices *c, const option *o, const char *value)
 static void keep_command(choices *c, int argc, char **argv)
 {
     size_t used = 0;
-    for (int i = 0; i < argc && used < sizeof c->command; i++) {
-        const bool quote = strpbrk(argv[i], " \t'\"$*;") != NULL;
-        used += (size_t)snprintf(c->command + used, sizeof c->command - used, "%s%s%s%s",
-                                 i ? " " : "", quote ? "'" : "", argv[i], quote ? "'" : "");
+    for (int i = 0; i < argc && used + 1 < sizeof c->command; i++) {
+        if (i > 0) c->command[used++] = ' ';
+        used += mps__shell_word(argv[i], c->command + used, sizeof c->command - used);
     }
 }
 

@@ -62,7 +62,10 @@ static void print_others(const mps_stats_config *now, const mps_stats_config *be
                         mps_stats_constant_get(before, k, &b) == MPS_OK;
          k++) {
         if (!differ(a.value, b.value)) continue;
-        printf("%s%s %s", between, a.key[0] ? a.key : a.about, quantity(a.value, a.unit));
+        char number[32]; /* as given: three digits would show a ratio of 1.025 as 1.02 */
+        snprintf(number, sizeof number, "%.6g", a.value);
+        printf("%s%s %s", between, a.key[0] ? a.key : a.about,
+               a.unit[0] ? quantity(a.value, a.unit) : number);
         between = ", ";
     }
     if (between != where) printf("\n");

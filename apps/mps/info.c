@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps info: detects the type of a file from its contents, and describes it. */
 #include "cli.h"
+#include "escape.h"
 #include "info.h"
 #include "record.h"
+#include "regular.h"
 #include "summary.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -185,16 +188,17 @@ static int describe(head *h)
 /* Print the case of a run, and its progress. */
 static void print_run(const char *path)
 {
-    char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400];
+    char name[SUMMARY_TEXT] = "", title[SUMMARY_TEXT] = "", state[400], place[4096];
     summary_text(path, "case", name);
     summary_text(path, "title", title);
     printf("folder of a run%s%s%s%s\n", name[0] ? " of " : "", name,
            strcmp(name, title) != 0 ? ": " : "", strcmp(name, title) != 0 ? title : "");
+    mps__shell_word(path, place, sizeof place);
     if (summary_unfinished(path, record_last(path), state, sizeof state))
         printf("  %s\n", state);
     else if (summary_is_done(path))
         printf("  done, to t = %.9g s, %.9g steps; 'mps resume %s --set run.until=..' extends it\n",
-               summary_number(path, "t_end"), summary_number(path, "steps"), path);
+               summary_number(path, "t_end"), summary_number(path, "steps"), place);
 }
 
 /* Describe the outputs in the folder of a run. */
@@ -226,11 +230,13 @@ int verb_info(const choices *c)
 {
     static head h;
     struct stat status;
-    FILE *file = NULL;
+    const char *why;
     h.path = c->file[0];
     if (stat(h.path, &status) == 0 && S_ISDIR(status.st_mode)) return describe_folder(h.path);
-    if (stat(h.path, &status) != 0 || !S_ISREG(status.st_mode) || !(file = fopen(h.path, "rb"))) {
-        fprintf(stderr, "mps info: %s: %s\n", h.path, errno ? strerror(errno) : "is no file");
+    FILE *file = mps__regular_stream(h.path, O_RDONLY, &why);
+    if (!file || fstat(fileno(file), &status) != 0) {
+        fprintf(stderr, "mps info: %s: %s\n", h.path, why ? why : strerror(errno));
+        if (file) fclose(file);
         return MPS_EXIT_USAGE;
     }
     h.file = file;

@@ -21,19 +21,13 @@ void series_place(const choices *c, char out[SERIES_PATH])
     if (c->out) snprintf(out, SERIES_PATH, "%s", c->out);
 }
 
-/* A file in the folder of a run, or NULL. */
-static FILE *open_in(const char *folder, const char *name)
-{
-    char path[SERIES_PATH + 32];
-    snprintf(path, sizeof path, "%s/%s", folder, name);
-    return fopen(path, "r");
-}
-
+/* Whether a folder has something of that name, of any kind. */
 static bool exists(const char *folder, const char *name)
 {
-    FILE *file = open_in(folder, name);
-    if (file) fclose(file);
-    return file != NULL;
+    char path[SERIES_PATH + 32];
+    struct stat s;
+    snprintf(path, sizeof path, "%s/%s", folder, name);
+    return stat(path, &s) == 0;
 }
 
 /* Next line of a text except the threads: results do not depend on them. */

@@ -2,6 +2,7 @@
 /* mps stats: impacts in the pressures of a run. */
 #include "cli.h"
 #include "constants.h"
+#include "escape.h"
 #include "record.h"
 #include "summary.h"
 #include <errno.h>
@@ -148,8 +149,11 @@ static void print_too_few(const mps_impacts_info *info, const mps_stats_config *
     if (info->events > 1) {
         printf(", at this rate a record of about %s", quantity(c->least_events / info->rate, "s"));
         if (r->is_folder && record_path(r->place, "case.yaml", path, sizeof path) &&
-            access(path, R_OK) == 0)
-            printf(": mps resume %s --set run.until='%.9g s'", r->place, wanted_end(info, c));
+            access(path, R_OK) == 0) {
+            char place[PATH_CAPACITY];
+            mps__shell_word(r->place, place, sizeof place);
+            printf(": mps resume %s --set run.until='%.9g s'", place, wanted_end(info, c));
+        }
     }
     printf("\n");
 }

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "summary.h"
+#include "escape.h"
 #include "json.h"
+#include "regular.h"
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -8,15 +11,23 @@
 
 enum { PATH_SIZE = 4096, LINE_SIZE = 4096 };
 
+/* summary.json of a folder; NULL: it cannot be read. */
+static FILE *open_summary(const char *folder)
+{
+    char path[PATH_SIZE];
+    const char *why;
+    snprintf(path, sizeof path, "%s/summary.json", folder);
+    return mps__regular_stream(path, O_RDONLY, &why);
+}
+
 /* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end
  * of the line. */
 static bool find_text(const char *folder, const char *wanted, int most, char out[LINE_SIZE])
 {
-    char path[PATH_SIZE], line[LINE_SIZE];
+    char line[LINE_SIZE];
     bool found = false;
     const size_t length = strlen(wanted);
-    snprintf(path, sizeof path, "%s/summary.json", folder);
-    FILE *in = fopen(path, "r");
+    FILE *in = open_summary(folder);
     while (in && !found && fgets(line, sizeof line, in)) {
         const char *at = line + strspn(line, " ");
         found = at - line <= most && strncmp(at, wanted, length) == 0;
@@ -66,10 +77,9 @@ bool summary_input(const char *folder, int32_t index, char key[SUMMARY_TEXT],
                    char value[SUMMARY_TEXT])
 {
     static const char begin[] = "    {\"key\": \"";
-    char path[PATH_SIZE], line[LINE_SIZE];
+    char line[LINE_SIZE];
     json_value *input = NULL;
-    snprintf(path, sizeof path, "%s/summary.json", folder);
-    FILE *in = fopen(path, "r");
+    FILE *in = open_summary(folder);
     while (in && fgets(line, sizeof line, in)) {
         if (strncmp(line, begin, sizeof begin - 1) != 0 || index-- > 0) continue;
         input = value_of(line);
@@ -109,8 +119,11 @@ bool summary_unfinished(const char *folder, double t, char *out, size_t size)
     int used = snprintf(out, size, "%s, at t = %.5g s", part ? "unfinished" : status,
                         isnan(t) ? reached : t);
     if (!isnan(until)) used += snprintf(out + used, size - (size_t)used, " of %.5g s", until);
-    if (part)
+    if (part) {
+        char place[PATH_SIZE];
+        mps__shell_word(folder, place, sizeof place);
         snprintf(out + used, size - (size_t)used,
-                 "; if it is not in progress, 'mps resume %s' continues it", folder);
+                 "; if it is not in progress, 'mps resume %s' continues it", place);
+    }
     return true;
 }

@@ -2,6 +2,7 @@
 /* Reads tables of numbers. The file is read in blocks; only the wanted columns are kept. */
 #include "csv.h"
 #include "grow.h"
+#include "regular.h"
 #include "run_file.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -11,7 +12,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { BLOCK = 1 << 16, LINE_MOST = 1 << 24, SHOWN = 40 };
@@ -54,14 +54,11 @@ static mps__csv_error refuse(mps__csv *t, const char *format, ...)
 
 /* ---- lines ---- */
 
-/* Open a regular file. Opening a pipe without a writer would block forever. */
 static mps__csv_error open_file(mps__csv *t)
 {
-    struct stat s;
     const char *why = NULL;
     char *real = t->folder ? mps__run_name(t->folder, t->path, &why) : NULL;
-    if (!t->folder || real)
-        t->in->file = open(real ? real : t->path, O_RDONLY | O_NONBLOCK | O_NOCTTY);
+    if (!t->folder || real) t->in->file = mps__regular_open(real ? real : t->path, O_RDONLY, &why);
     const int number = errno;
     free(real);
     errno = number;
@@ -71,12 +68,7 @@ static mps__csv_error open_file(mps__csv *t)
         refuse(t, "%s: %s", t->path, strerror(errno));
         return CSV_MISSING;
     }
-    if (t->in->file < 0 || fstat(t->in->file, &s) != 0)
-        return refuse(t, "%s: %s", t->path, strerror(errno));
-    if (S_ISDIR(s.st_mode)) return refuse(t, "%s: %s", t->path, strerror(EISDIR));
-    if (!S_ISREG(s.st_mode))
-        return refuse(t, "%s: is a pipe or a device; a table is read from a file", t->path);
-    return CSV_OK;
+    return t->in->file < 0 ? refuse(t, "%s: %s", t->path, strerror(errno)) : CSV_OK;
 }
 
 static void close_file(mps__csv *t)

@@ -83,6 +83,28 @@ size_t mps__json_character(const char *text, char out[8])
     return length ? length : 1;
 }
 
+/* Append a byte to a text of `length` bytes, as long as there is capacity. @return new length */
+static size_t append(char *out, size_t size, size_t length, char byte)
+{
+    if (length + 1 < size) out[length] = byte;
+    return length + 1;
+}
+
+size_t mps__shell_word(const char *word, char *out, size_t size)
+{
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                                "_.,:/+=@%-";
+    const bool quoted = !word[0] || word[strspn(word, plain)];
+    size_t length = quoted ? append(out, size, 0, '"') : 0;
+    for (; *word; word++) {
+        if (strchr("\"\\$`", *word)) length = append(out, size, length, '\\');
+        length = append(out, size, length, *word);
+    }
+    if (quoted) length = append(out, size, length, '"');
+    if (size > 0) out[length < size ? length : size - 1] = '\0';
+    return length;
+}
+
 void mps__put_escaped(FILE *out, const char *text, mps__escape *escape)
 {
     char character[8];

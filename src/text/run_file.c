@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #include "run_file.h"
+#include "regular.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 char *mps__file_read(FILE *file, size_t most, size_t *size)
@@ -54,33 +54,12 @@ char *mps__run_name(const char *folder, const char *path, const char **why)
     return NULL;
 }
 
-/* Non-blocking: opening a pipe without a writer would wait forever. */
-static FILE *open_regular(const char *path, int flags, const char **why)
-{
-    struct stat status;
-    const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC | flags);
-    if (fd < 0) return NULL;
-    FILE *file = NULL;
-    if (fstat(fd, &status) == 0) {
-        if (S_ISREG(status.st_mode)) {
-            file = fdopen(fd, "rb");
-        } else {
-            errno = S_ISDIR(status.st_mode) ? EISDIR : EINVAL;
-            if (errno == EINVAL) *why = "it is no regular file";
-        }
-    }
-    const int number = errno;
-    if (!file) close(fd);
-    errno = number;
-    return file;
-}
-
 FILE *mps__run_open(const char *folder, const char *path, const char **why)
 {
     *why = NULL;
-    if (!folder) return open_regular(path, 0, why);
+    if (!folder) return mps__regular_stream(path, O_RDONLY, why);
     char *real = mps__run_name(folder, path, why);
-    FILE *file = real ? open_regular(real, O_NOFOLLOW, why) : NULL;
+    FILE *file = real ? mps__regular_stream(real, O_RDONLY | O_NOFOLLOW, why) : NULL;
     const int number = errno;
     free(real);
     errno = number;

@@ -85,7 +85,7 @@ static void no_tables(void **state)
         snprintf(text, sizeof text, TANK WATER "motion: {file: %s, columns: {surge: x}}\n" END,
                  path);
         built_refused(text, 5,
-                      k ? "a line of more than 16777216 bytes" : "corners_folder: Is a directory");
+                      k ? "a line of more than 16777216 bytes" : "corners_folder: it is a folder");
         remove(path);
     }
 }

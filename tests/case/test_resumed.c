@@ -8,8 +8,9 @@
 #include <errno.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
+#include <time.h>
 
-enum { SEEDS = 7, STEPS = 130, OPERATIONS = 260, ROUNDS = 8, PEAK_FRAMES = 8 };
+enum { CHECKPOINTS = 64, SEEDS = 7, STEPS = 130, OPERATIONS = 260, ROUNDS = 8, PEAK_FRAMES = 8 };
 
 static const char tank[] =
     "mps: 1\n"
@@ -42,18 +43,43 @@ static void operation(void)
     }
 
 /* NOLINTBEGIN(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp): names of the linker */
-WRAPPED(int, rename, (const char *a, const char *b), (a, b))
 WRAPPED(int, unlink, (const char *a), (a))
 WRAPPED(int, fsync, (int fd), (fd))
 WRAPPED(int, fflush, (FILE * file), (file))
 WRAPPED(int, fclose, (FILE * file), (file))
 WRAPPED(int, ftruncate, (int fd, off_t size), (fd, size))
 WRAPPED(FILE *, fopen, (const char *path, const char *mode), (path, mode))
+
+/* The clock of the test: a step takes clock_step seconds, a checkpoint checkpoint_cost. */
+static double clock_ahead, clock_step, checkpoint_cost;
+static int64_t steps_taken, checkpoint_step[CHECKPOINTS];
+static int32_t saved;
+
+int __real_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to);
+int __wrap_rename(const char *from, const char *to)
+{
+    operation();
+    if (strstr(to, "/checkpoint.mps") && saved < CHECKPOINTS) {
+        checkpoint_step[saved++] = steps_taken;
+        clock_ahead += checkpoint_cost;
+    }
+    return __real_rename(from, to);
+}
+
+int __real_clock_gettime(clockid_t clock, struct timespec *now);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now);
+int __wrap_clock_gettime(clockid_t clock, struct timespec *now)
+{
+    const int code = __real_clock_gettime(clock, now);
+    if (clock == CLOCK_MONOTONIC) now->tv_sec += (time_t)clock_ahead;
+    return code;
+}
 /* NOLINTEND(bugprone-reserved-identifier,cert-dcl37-c,cert-dcl51-cpp) */
 
 /* How a part of a run ends. */
 typedef struct part {
-    const char *until, *frames, *checkpoint;
+    const char *until, *frames, *checkpoint, *clock;
     int32_t steps;      /* 0: any number */
     int64_t operations; /* 0: any number */
     bool stops;         /* after these steps by mps_job_stop(), else by SIGKILL */
@@ -69,7 +95,9 @@ typedef struct stopper {
 static double count_down(void *user, mps_sim *sim)
 {
     const stopper *s = user;
-    (void)sim;
+    const int64_t before = steps_taken;
+    mps_sim_time(sim, NULL, &steps_taken);
+    clock_ahead += (double)(steps_taken - before) * clock_step;
     if (steps_left > 0 && --steps_left == 0) {
         if (!s->stops) raise(SIGKILL);
         mps_job_stop(s->job);
@@ -80,8 +108,9 @@ static double count_down(void *user, mps_sim *sim)
 /* @return exit code of the job */
 static int run_part(const char *folder, const part *p)
 {
-    char until[40], frames[40], checkpoint[40], error[1024] = "";
-    const char *set[] = {until, frames, checkpoint};
+    char until[40], frames[40], checkpoint[40], clock[40], error[1024] = "";
+    const char *set[4] = {until, frames};
+    int32_t sets = 2;
     mps_case *c;
     mps_sim *sim;
     mps_job_config config;
@@ -89,8 +118,10 @@ static int run_part(const char *folder, const part *p)
     snprintf(until, sizeof until, "run.until=%s", p->until);
     snprintf(frames, sizeof frames, "output.frames=%s", p->frames);
     snprintf(checkpoint, sizeof checkpoint, "run.checkpoint=%s", p->checkpoint);
-    if (mps_case_read_text(tank, strlen(tank), "tank.yaml", p->checkpoint ? 3 : 2, set, &c) !=
-            MPS_OK ||
+    snprintf(clock, sizeof clock, "run.checkpoint_clock=%s", p->clock);
+    if (p->checkpoint) set[sets++] = checkpoint;
+    if (p->clock) set[sets++] = clock;
+    if (mps_case_read_text(tank, strlen(tank), "tank.yaml", sets, set, &c) != MPS_OK ||
         mps_job_config_init(&config, sizeof config) != MPS_OK)
         return 99;
     config.folder = folder;
@@ -337,10 +368,50 @@ static void cases_stay_the_same(void **state)
     }
 }
 
+/* Checkpoints by the clock: none before the steps at the end where the clock is far or off, and
+ * at the step at which the interval is over where it is short. One that takes 290 s is followed by
+ * 29000 s without one: 1 % of the time. */
+static void clock_writes_checkpoints(void **state)
+{
+    static const struct {
+        const char *clock;
+        double cost;
+        int32_t first, interval; /* in steps of 1000 s; 0: none */
+    } all[] = {{"0 s", 0, 0, 0},
+               {"1000 h", 0, 0, 0},
+               {NULL, 0, 2, 2}, /* 10 min */
+               {"9000 s", 0, 10, 10},
+               {"9000 s", 290, 10, 31}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        const part p = {.until = "0.3 s", .frames = "6", .clock = all[k].clock};
+        char folder[24];
+        int64_t due = all[k].first;
+        int32_t early = 0;
+        snprintf(folder, sizeof folder, "clock_%zu", k);
+        steps_taken = saved = 0;
+        clock_step = 1000;
+        checkpoint_cost = all[k].cost;
+        assert_int_equal(run_part(folder, &p), MPS_EXIT_OK);
+        clock_step = checkpoint_cost = 0;
+        assert_true(steps_taken > 60 && saved > 0);
+        /* 20 steps are fitted to the end; the ones before them, which might be, have checkpoints */
+        while (early < saved && checkpoint_step[early] < steps_taken - 30) {
+            assert_int_equal(checkpoint_step[early++], due);
+            due += all[k].interval;
+        }
+        if (all[k].first)
+            assert_true(due >= steps_taken - 30);
+        else
+            assert_int_equal(early, 0);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(broken_runs_go_on), cmocka_unit_test(ends_can_be_later),
-        cmocka_unit_test(peaks_have_no_end), cmocka_unit_test(cases_stay_the_same)};
+        cmocka_unit_test(peaks_have_no_end), cmocka_unit_test(cases_stay_the_same),
+        cmocka_unit_test(clock_writes_checkpoints)};
     return cmocka_run_group_tests(tests, make_whole, leave_folder);
 }

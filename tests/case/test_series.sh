@@ -45,6 +45,27 @@ expect 0 "" "$program" sweep sweep.yaml -o many --jobs 3 -q
 expect 0 "varied:" "$program" repeat single.yaml -o repeated -n 3 --jobs 2 -q
 [ "$(echo repeated/0*)" = "repeated/001 repeated/002 repeated/003" ] || fail "repeat --jobs: $(echo repeated/*)"
 
+# ---- repeat and converge in several processes and in parts: runs and table are those of one process
+for verb in repeat converge; do
+    count=(-n 3)
+    [ $verb = converge ] && count=()
+    expect 0 "" "$program" $verb single.yaml "${count[@]}" -o $verb.one -q
+    [ "$(echo $verb.one/0*)" = "$verb.one/001 $verb.one/002 $verb.one/003" ] || fail "$verb: $(echo $verb.one/*)"
+    cp log $verb.text
+    expect 0 "" "$program" $verb single.yaml "${count[@]}" -o $verb.many -q --jobs 2
+    cmp $verb.text log || fail "$verb --jobs prints $(cat log)"
+    for part in 3 1; do
+        expect 0 "of 3 runs in '$verb.parts' are not done" "$program" $verb single.yaml "${count[@]}" -o $verb.parts --part $part/3
+    done
+    [ "$(echo $verb.parts/0*)" = "$verb.parts/001 $verb.parts/003" ] || fail "$verb --part: $(echo $verb.parts/*)"
+    expect 0 "" "$program" $verb single.yaml "${count[@]}" -o $verb.parts -q --part 2/3
+    cmp $verb.text log || fail "the last part of $verb prints $(cat log)"
+    for folder in $verb.many $verb.parts; do
+        same_runs $verb.one $folder
+        cmp $verb.one/$verb.csv $folder/$verb.csv || fail "$folder: another table: $(cat $folder/$verb.csv)"
+    done
+done
+
 # ---- tasks of a queue: sbatch starts a process for each, in any order and at the same time
 cat > sbatch << 'END'
 #!/bin/bash

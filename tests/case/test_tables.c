@@ -102,7 +102,7 @@ static void no_text(void **state)
     assert_int_equal(unlink(FILE_NAME), 0);
     assert_int_equal(mkfifo(FILE_NAME, 0600), 0);
     assert_int_equal(mps__csv_open(&t, FILE_NAME, 0), CSV_FILE);
-    assert_non_null(strstr(t.why, "is a pipe"));
+    assert_non_null(strstr(t.why, "it is a pipe (FIFO)"));
     mps__csv_free(&t);
     assert_int_equal(unlink(FILE_NAME), 0);
     assert_int_equal(mps__csv_open(&t, FILE_NAME, 0), CSV_MISSING);
@@ -213,6 +213,69 @@ static void motions(void **state)
     built_free(&t);
 }
 
+/* The unit of a reference occurs once, or twice the same, and is of the kind of its sensor. */
+static void reference_units(void **state)
+{
+    static const struct {
+        const char *text, *keys, *words; /* NULL: accepted */
+    } all[] = {{"t[s],p[kPa]\n0,1\n1,2\n", "", NULL},
+               {"t[s],p[kPa]\n0,1\n1,2\n", ", unit: kPa", NULL},
+               {"t[s],p\n0,1\n1,2\n", ", unit: kPa", NULL},
+               {"t[s],p[kPa]\n0,1\n1,2\n", ", unit: Pa", "'kPa' in the table and 'Pa' in the case"},
+               {"t[s],p[mm]\n0,1\n1,2\n", ", unit: Pa", "'mm' in the table and 'Pa' in the case"},
+               {"t[mm],p[kPa]\n0,1\n1,2\n", "", "'t' has the unit 'mm', a time is wanted"},
+               {"t[s],p[mm]\n0,1\n1,2\n", "", "have the unit 'm', sensor 'P' has 'Pa'"},
+               {"t[s],p\n0,1\n1,2\n", ", unit: deg", "have the unit 'deg', sensor 'P' has 'Pa'"}};
+    (void)state;
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
+        char path[600], text[1000];
+        mps_case *c = NULL;
+        write_bytes(all[k].text, strlen(all[k].text));
+        snprintf(text, sizeof text, "%sreference: {P: {file: %s%s}}\n",
+                 CASE("{surge: {amplitude: 1 mm, period: 1 s}}\nsensors: {P: {wall: 0 0.1 m}}\n"),
+                 kit_here(path, sizeof path, FILE_NAME), all[k].keys);
+        assert_int_equal(kit_read(text, NULL, &c), MPS_OK);
+        const mps_status status = mps_case_check(c, NULL, NULL);
+        char *messages = kit_messages(c);
+        if ((status == MPS_OK) != !all[k].words ||
+            (all[k].words && !kit_has(c, 0, 0, all[k].words)))
+            fail_msg("%s%s: status %d\n%s", all[k].text, all[k].keys, (int)status, messages);
+        free(messages);
+        mps_case_destroy(c);
+    }
+}
+
+#define BODY                                                                                    \
+    "mps: 1\ndp: 0.1 m\ntank: {size: 0.8 0.5 m}\nfill: [{water: {depth: 40 %}}]\nrun: {until: " \
+    "0.2 s}\n"                                                                                  \
+    "body: "
+
+static void refused_load(const char *text, const char *units, const char *words)
+{
+    char path[600], all[1000];
+    write_bytes(text, strlen(text));
+    snprintf(all, sizeof all,
+             "%s{mass: 1 kg, inertia: 1 kg m2, sway: {stiffness: 1 kN/m}, roll: {stiffness: 1 N "
+             "m/rad}, load: {file: %s%s}}\n",
+             BODY, kit_here(path, sizeof path, FILE_NAME), units);
+    built_refused(all, 6, words);
+}
+
+/* The unit of a column of body.load occurs once, or twice the same; forces and moments differ. */
+static void load_units(void **state)
+{
+    (void)state;
+    refused_load("time[s],sway[N]\n0,0\n1,1\n", ", units: {sway: kN}",
+                 "'N' in the table and 'kN' in the case");
+    refused_load("time[s],roll[N m]\n0,0\n1,1\n", ", units: {roll: kN m}",
+                 "'N m' in the table and 'kN m' in the case");
+    refused_load("time[min],sway[N]\n0,0\n1,1\n", ", units: {time: s}",
+                 "column 'time'|'min' in the table and 's' in the case");
+    refused_load("time[s],sway[N m]\n0,0\n1,1\n", "", "'N m', a force is wanted");
+    refused_load("time[s],roll[N]\n0,0\n1,1\n", "", "'N', a moment is wanted");
+    refused_load("time[s],sway\n0,0\n1,1\n", "", "no unit|'sway[N]'");
+}
+
 /* The public reader: stats, record, compare. */
 static void public_reader(void **state)
 {
@@ -243,9 +306,11 @@ static int end(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(same_table),   cmocka_unit_test(refused),
-                                       cmocka_unit_test(no_text),      cmocka_unit_test(names),
-                                       cmocka_unit_test(units),        cmocka_unit_test(motions),
-                                       cmocka_unit_test(public_reader)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(same_table),    cmocka_unit_test(refused),
+        cmocka_unit_test(no_text),       cmocka_unit_test(names),
+        cmocka_unit_test(units),         cmocka_unit_test(motions),
+        cmocka_unit_test(public_reader), cmocka_unit_test(reference_units),
+        cmocka_unit_test(load_units)};
     return cmocka_run_group_tests(tests, NULL, end);
 }

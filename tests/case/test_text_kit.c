@@ -58,6 +58,27 @@ static void escapes(void **state)
     expect_escaped("", mps__xml_character, "");
 }
 
+static void shell_words(void **state)
+{
+    static const char *const pairs[][2] = {{"run/01-a,b:c+d=e@f%g_h.x", "run/01-a,b:c+d=e@f%g_h.x"},
+                                           {"", "\"\""},
+                                           {"my tank", "\"my tank\""},
+                                           {"it's", "\"it's\""},
+                                           {"~", "\"~\""},
+                                           {"a\"\\$`b", "\"a\\\"\\\\\\$\\`b\""},
+                                           {"\xc3\xa9", "\"\xc3\xa9\""}};
+    char word[40], cut[4] = "...";
+    (void)state;
+    for (size_t k = 0; k < sizeof pairs / sizeof *pairs; k++) {
+        const size_t length = strlen(pairs[k][1]);
+        assert_int_equal(mps__shell_word(pairs[k][0], word, sizeof word), length);
+        assert_string_equal(word, pairs[k][1]);
+        assert_int_equal(mps__shell_word(pairs[k][0], NULL, 0), length);
+    }
+    assert_int_equal(mps__shell_word("my tank", cut, sizeof cut), 9);
+    assert_string_equal(cut, "\"my");
+}
+
 static void arrays(void **state)
 {
     int32_t *all = NULL;
@@ -110,6 +131,7 @@ static void files(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(distances), cmocka_unit_test(escapes),
-                                       cmocka_unit_test(arrays), cmocka_unit_test(files)};
+                                       cmocka_unit_test(shell_words), cmocka_unit_test(arrays),
+                                       cmocka_unit_test(files)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

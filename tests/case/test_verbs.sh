@@ -97,6 +97,11 @@ printf 't,eta\n0,1\n0.01,2\n0.02,3\n' > bare.csv # without units: compared as th
 expect 0 "  eta " "$program" compare done bare.csv
 expect 2 "is more than the tank is high" "$program" run small.yaml -o none --set "fill.water.depth=90 m"
 [ -e none ] && fail "a refused run made a folder"
+expect 2 "outside the solids" "$program" run small.yaml -o none --set "sensors.P.wall=5 5 m" # refused later
+[ -e none ] && fail "a refused run left a folder"
+mkdir mine
+expect 2 "outside the solids" "$program" run small.yaml -o mine --set "sensors.P.wall=5 5 m"
+[ -d mine ] || fail "a refused run removed a folder that it did not make"
 echo mine > mine.json
 ln -s ../mine.json done/statistics.json # replaced, not written through; an empty folder too
 mkdir done/statistics.csv
@@ -188,7 +193,32 @@ expect 0 "series of frames" "$program" info frames.pvd
 printf '<VTKFile type="Other">' > other.vtk
 expect 2 "is no file of mps" "$program" info other.vtk
 mkfifo pipe
-expect 2 "pipe: is no file" "$program" info pipe
+piped() { # wanted text, command ..: a pipe without a writer is refused, nothing waits for one
+    expect 2 "$1" timeout 20 "$program" "${@:2}"
+    says "$fifo"
+}
+fifo="it is a pipe \(FIFO\), no regular file"
+piped "pipe: " info pipe
+piped "pipe: " check pipe
+printf 'base: pipe\n' > on_pipe.yaml
+piped "$work/pipe' cannot be read: " check on_pipe.yaml
+piped "pipe: " check small.yaml --set "motion={file: pipe}"
+piped "/pipe: " run small.yaml -q -o none --set "reference={eta: {file: pipe}}"
+piped "pipe" check small.yaml --plugin ./pipe
+piped "\"$work/pipe\": " check small.yaml --set "dim=3" --set "tank={stl: pipe, unit: m}" --set "sensors={}"
+piped "pipe: " compare dry dry pipe
+piped "pipe: " stats pipe
+cp -r done piped # a folder of a run, with a pipe instead of one of its files
+for row in "case.yaml resume" "checkpoint.mps resume" "probes.csv stats" "probes.csv report" "summary.json report"; do
+    read -r file verb <<< "$row"
+    mv piped/$file kept.file 2> /dev/null
+    mkfifo piped/$file
+    piped "$file" "$verb" piped
+    rm piped/$file
+    mv kept.file piped/$file 2> /dev/null
+done
+expect 2 "" timeout 20 "$program" info /dev/null
+says "it is a device, no regular file"
 mkdir -p taken/report.html
 expect 2 "without outputs of a run" "$program" info taken
 # checkpoints: a head of 16 bytes, parts of a title of 40, bytes, number
@@ -200,6 +230,43 @@ expect 0 "it is cut short, or damaged" "$program" info cut.mps
 { head -c 16 kept/checkpoint.mps; printf 'x%.0s' {1..40}; printf '\377\377\377\377\0\0\0\0\1\0\0\0\0\0\0\0'; } > huge.mps
 expect 0 "checkpoint of a run, 72 bytes" "$program" info huge.mps
 [ "$(wc -l < log)" -eq 2 ] || fail "info: a part with too large elements: $(cat log)"
+
+# ---- info: contents; proposals for a mistyped verb
+stl() { # facets as lines of nine numbers: an ASCII STL file
+    echo "solid s"
+    while read -r ax ay az bx by bz cx cy cz; do
+        printf 'facet normal 0 0 0\nouter loop\nvertex %s %s %s\nvertex %s %s %s\nvertex %s %s %s\nendloop\nendfacet\n' "$ax" "$ay" "$az" "$bx" "$by" "$bz" "$cx" "$cy" "$cz"
+    done
+    echo "endsolid s"
+}
+# a tetrahedron at (1, 2, 3) with edges of 2, 3 and 4 along the axes
+tetrahedron="1 2 3 1 5 3 3 2 3
+1 2 3 3 2 3 1 2 7
+1 2 3 1 2 7 1 5 3
+3 2 3 1 5 3 1 2 7"
+stl <<< "$tetrahedron" > solid.stl
+expect 0 "ASCII STL, 4 triangles" "$program" info solid.stl
+for line in "x 1 .. 3, size 2" "y 2 .. 5, size 3" "z 3 .. 7, size 4"; do says "^  $line$"; done
+says "^  in the unit of the file$"
+says "^  closed: each edge belongs to two triangles; volume 4$"
+awk '{ print $1, $2, $3, $7, $8, $9, $4, $5, $6 }' <<< "$tetrahedron" | stl > inward.stl
+expect 0 "closed: each edge belongs to two triangles; volume 4, normals point inwards" "$program" info inward.stl
+head -3 <<< "$tetrahedron" | stl > open.stl
+expect 0 "open: 3 edges do not belong to two triangles" "$program" info open.stl
+grep -q "closed\|volume" log && fail "info: an open surface is closed: $(cat log)"
+expect 0 "folder of a run of small" "$program" info done
+says "^  done, to t = 0.02 s, [0-9]+ steps; 'mps resume done --set run.until=..' extends it$"
+says "^  probes.csv +table of the sensors"
+says "^  summary.json +summary of the run$"
+grep -q "checkpoint\|film\|report" log && fail "info: outputs that are not there: $(cat log)"
+expect 0 "  checkpoint.mps   checkpoint; 'mps resume' continues from it" "$program" info kept
+t=$(tail -21 kept/steps.csv | head -1 | cut -d, -f1) # 20 steps are fitted to the end
+expect 0 "checkpoint of a run at t = $(printf %.9g "$t") s, after $(($(wc -l < kept/steps.csv) - 21)) steps, $(wc -c < kept/checkpoint.mps) bytes; 'mps resume' continues from its folder" "$program" info kept/checkpoint.mps
+says "^  state.t +1 numbers of 8 bytes$"
+for pair in runn:run resum:resume chekc:check statistics: xyzzy:; do
+    expect 2 "mps: '${pair%:*}' is no verb" "$program" "${pair%:*}"
+    if [ "${pair#*:}" ]; then says "; the nearest is '${pair#*:}'$"; else grep -q "nearest" log && fail "a proposal for ${pair%:*}: $(cat log)"; fi
+done
 
 # ---- series: existing results, tables that cannot be written
 "$program" run small.yaml --set "run.until=100000 s" -o stopped > log 2>&1 &

@@ -216,13 +216,13 @@ refused lib/plugin_undefined.so "undefined symbol: nowhere_defined"
 refused lib/plugin_link.so "link it with libmps: \$(pkg-config --libs mps)"
 refused nowhere.so "there is no file 'nowhere.so' in '$work/'"
 refused tank.yaml "it is no shared library"
-refused lib "it is no regular file"
+refused lib "it is a folder, no regular file"
 : > empty.so
 refused empty.so "it is no shared library"
 head -c 3000 lib/libscreen.so > cut.so
 refused cut.so "it is cut short or damaged"
 mkfifo pipe.so
-refused pipe.so "it is no regular file"
+refused pipe.so "it is a pipe (FIFO), no regular file"
 # in an ELF header the machine is at byte 18, the class at byte 4, the type at byte 16
 patched() { cp lib/libscreen.so "$1"; printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc status=none; }
 patched arm.so 18 '\363\000'

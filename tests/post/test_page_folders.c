@@ -289,7 +289,7 @@ static void links_in(void **state)
     remove(to);
     remove(from);
     assert_int_equal(mkfifo(from, 0666), 0);
-    refused(&s, "is a pipe or a device");
+    refused(&s, "it is a pipe (FIFO), no regular file");
     scene_remove(&s);
 }
 

@@ -328,6 +328,8 @@ static void odd_places(void **state)
     path_of(beside, "pipe.tmp");
     assert_int_equal(mkfifo(path, 0600), 0);
     ASSERT_REFUSED(sim, mps_checkpoint_write(sim, path), MPS_E_IO, "no regular file");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, path), MPS_E_IO, "it is a pipe (FIFO)");
+    ASSERT_REFUSED(sim, mps_checkpoint_read(sim, folder), MPS_E_IO, "it is a folder");
     assert_int_equal(stat(path, &there), 0);
     assert_true(S_ISFIFO(there.st_mode));
     ASSERT_REFUSED(sim, mps_checkpoint_write(sim, folder), MPS_E_IO, "no regular file");

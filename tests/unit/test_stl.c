@@ -3,6 +3,7 @@
  * meshes. */
 #include "stl_fixture.h"
 #include "../every.h"
+#include <sys/stat.h>
 
 /* ---- meshes ---- */
 
@@ -176,6 +177,9 @@ static void bad_files(void **state)
     }
     unlink(path);
     refused(MPS_E_IO, "cannot open");
+    assert_int_equal(mkfifo(path, 0600), 0);
+    refused(MPS_E_IO, "it is a pipe (FIFO), no regular file"); /* it does not wait for a writer */
+    unlink(path);
     mps_sim *sim = new_sim(2, 0.1);
     ASSERT_REFUSED(sim, read_file(sim, 1, 1), MPS_E_ARG, "needs 3-D");
     mps_sim_destroy(sim);

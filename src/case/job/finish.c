@@ -58,11 +58,13 @@ static void print_failure(mps_job *job, int32_t code, mps_status status)
 {
     const job_totals *s = &job->totals;
     const table *failed = mps__job_failed_table(job);
+    char resume[1200];
+    mps__resume_command(job, resume, sizeof resume);
     if (code == MPS_EXIT_INTERRUPTED)
         mps__job_print(job,
                        "interrupted at t = %.6g s after %lld steps; outputs are complete up to "
-                       "there; %s%s continues",
-                       s->t, (long long)s->steps, mps__resume_words(job), mps__resume_folder(job));
+                       "there; %s continues",
+                       s->t, (long long)s->steps, resume);
     else if (status < 0)
         mps__job_print(job, "%s at t = %.6g s, step %lld: %s", mps_status_name(status), s->t,
                        (long long)s->steps + 1, job->error);

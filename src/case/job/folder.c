@@ -52,8 +52,9 @@ static mps_status folder_refuse(const folder *f, int number, char *error, size_t
     return MPS_E_IO;
 }
 
-/* mkdir -p */
-static bool folder_make(const char *path)
+/* mkdir -p
+ * @param made  out: the folder did not exist */
+static bool folder_make(const char *path, bool *made)
 {
     char part[FOLDER_PATH];
     snprintf(part, sizeof part, "%s", path);
@@ -65,7 +66,8 @@ static bool folder_make(const char *path)
         *slash = '/';
     }
     struct stat s;
-    if (mkdir(part, 0777) != 0 && errno != EEXIST) return false;
+    *made = mkdir(part, 0777) == 0;
+    if (!*made && errno != EEXIST) return false;
     if (stat(part, &s) == 0 && S_ISDIR(s.st_mode)) return true;
     errno = ENOTDIR;
     return false;
@@ -80,6 +82,7 @@ void mps__folder_close(folder *f)
     unlink(f->lock);
     close(f->fd);
     f->lock[0] = '\0';
+    if (f->made) rmdir(f->path); /* it is empty if the run was refused */
 }
 
 /* Whether a locked file is still in the folder; a run that has just ended removes its own. */
@@ -224,7 +227,7 @@ mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error,
     *f = (folder){.fd = -1};
     if (snprintf(f->path, sizeof f->path, "%s", path) >= (int)sizeof f->path)
         return folder_refuse(f, ENAMETOOLONG, error, size);
-    if (!folder_make(f->path)) return folder_refuse(f, errno, error, size);
+    if (!folder_make(f->path, &f->made)) return folder_refuse(f, errno, error, size);
     mps_status status = folder_lock(f, error, size);
     if (status == MPS_OK && !keep) status = folder_check(f, error, size);
     if (status != MPS_OK) mps__folder_close(f);

@@ -13,6 +13,7 @@ typedef struct folder {
     char path[FOLDER_PATH];
     char lock[FOLDER_PATH + 16]; /* "": not locked */
     int fd;
+    bool made; /* it did not exist before this run */
 } folder;
 
 /* Create the folder and lock it against other programs.
@@ -24,7 +25,7 @@ mps_status mps__folder_open(folder *f, const char *path, bool keep, char *error,
 /* Renew the lock, more often than once a minute, so that other machines see that the run is in
  * progress. */
 void mps__folder_renew(const folder *f);
-/* Remove the lock. */
+/* Remove the lock, and the folder if the run made it and it is empty. */
 void mps__folder_close(folder *f);
 /* Remove all outputs of jobs.
  * @param keep  name of a file that stays, or NULL

@@ -3,7 +3,10 @@
  * rows. These are flushed to the disk before each checkpoint, so that they reach it even after a
  * kill. */
 #include "run.h"
+#include "escape.h"
+#include "regular.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -27,14 +30,14 @@ static void path_of(const mps_job *job, char path[RESUME_PATH])
 }
 
 /* A run of a case is continued by 'mps', other jobs by their driver. */
-const char *mps__resume_words(const mps_job *job)
+void mps__resume_command(const mps_job *job, char *out, size_t size)
 {
-    return job->config.text ? "mps resume " : "--resume with the same options";
-}
-
-const char *mps__resume_folder(const mps_job *job)
-{
-    return job->config.text ? job->place.path : "";
+    char place[2 * RESUME_PATH];
+    mps__shell_word(job->place.path, place, sizeof place);
+    if (job->config.text)
+        snprintf(out, size, "mps resume %s", place);
+    else
+        snprintf(out, size, "--resume with the same options");
 }
 
 static const char *end_option(const mps_job *job)
@@ -51,7 +54,8 @@ static double number_of(const mps_job *job, const char *key, bool *done)
     const size_t length = (size_t)snprintf(wanted, sizeof wanted, "  \"%s\": ", key);
     if (done) *done = false;
     snprintf(path, sizeof path, "%s/summary.json", job->place.path);
-    FILE *in = fopen(path, "r");
+    const char *why;
+    FILE *in = mps__regular_stream(path, O_RDONLY, &why);
     while (in && fgets(line, sizeof line, in)) {
         if (done && strstr(line, "\"status\": \"ok\"")) *done = true;
         if (strncmp(line, wanted, length) == 0) value = strtod(line + length, NULL);

@@ -232,10 +232,9 @@ void mps__trace_step(mps_job *job, double t, double dt);
  * Collective call.
  * @return false: it failed on this rank */
 bool mps__resume_read(mps_job *job);
-/* How a user continues the run: the command of 'mps', or of a driver; a folder follows it, "" for a
+/* How a user continues the run: the command of 'mps' as a shell reads it, or the option of a
  * driver. */
-const char *mps__resume_words(const mps_job *job);
-const char *mps__resume_folder(const mps_job *job);
+void mps__resume_command(const mps_job *job, char *out, size_t size);
 /* Remove an earlier run, except the file `keep`, or NULL. */
 bool mps__resume_forget(mps_job *job, const char *keep);
 /* Check the rows of the tables, and truncate them at the checkpoint. */

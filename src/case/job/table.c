@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Writes and reads rows of tables. */
 #include "table.h"
+#include "regular.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -119,8 +121,9 @@ static bool table_same_header(table *t, const char *header)
 
 bool mps__table_resume(table *t, const char *header, double time)
 {
-    t->file = fopen(t->path, "r+");
-    if (!t->file) return table_refuse(t, strerror(errno));
+    const char *why;
+    t->file = mps__regular_stream(t->path, O_RDWR, &why);
+    if (!t->file) return table_refuse(t, why ? why : strerror(errno));
     if (!table_same_header(t, header)) return table_refuse(t, "has not the columns of this run");
     if (!table_read(t, time))
         return table_refuse(t, "has rows at other times; their rate must be what it was");

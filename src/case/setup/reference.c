@@ -122,6 +122,21 @@ static bool read_table(build *b, const tree_node *map, series *s)
     return good;
 }
 
+/* Refuse values whose unit is not of the kind of their sensor, a pressure or a level. */
+static void check_kind(build *b, const tree_node *map, const char *column, const char *unit)
+{
+    static const struct {
+        const char *key, *unit;
+    } kinds[] = {{"wall", "Pa"}, {"panel", "Pa"}, {"pressure", "Pa"}, {"gauge", "m"}};
+    const tree_node *sensor = mps__tree_find(mps__tree_find(b->root, "sensors"), column);
+    for (size_t i = 0; sensor && i < sizeof kinds / sizeof *kinds; i++)
+        if (mps__tree_find(sensor, kinds[i].key) && strcmp(unit, kinds[i].unit) != 0)
+            mps__case_log(b->c, map, false,
+                          "the values have the unit '%s', sensor '%s' has '%s'; give another "
+                          "'column', or values in a unit of that kind",
+                          unit, column, kinds[i].unit);
+}
+
 static void add_reference(build *b, const tree_node *map, const char *name)
 {
     series s = {0};
@@ -140,6 +155,7 @@ static void add_reference(build *b, const tree_node *map, const char *name)
     r.value = s.value;
     if (!column[0] && mps__tree_find(mps__tree_find(b->root, "sensors"), name)) column = name;
     r.column = column[0] ? column : NULL;
+    if (r.column) check_kind(b, map, r.column, s.unit);
     if (mps__case_failed(b->c) || !b->job || b->c->known_errors) return;
     mps__build_try_job(b, mps_job_reference_add(b->job, &r), map, name);
 }

@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* The shared library of a plug-in: kind of file, checksum, function. */
 #include "plugin_file.h"
+#include "regular.h"
 #include <dlfcn.h>
 #include <elf.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <link.h>
 #include <stdarg.h>
 #include <stdlib.h>
@@ -100,15 +102,18 @@ static bool is_whole(FILE *file, uint64_t size)
     return true;
 }
 
-/* Determine kind and checksum. Only regular files are opened: a FIFO would block. */
+/* Determine kind and checksum. */
 static bool look_at(mps_plugin_file *p, plugin_why *why)
 {
     struct stat s;
-    if (stat(p->path, &s) != 0)
-        return mps__plugin_fail(why, MPS_E_IO, "it cannot be read: %s", strerror(errno));
-    if (!S_ISREG(s.st_mode)) return mps__plugin_fail(why, MPS_E_IO, "it is no regular file");
-    FILE *file = fopen(p->path, "rb");
-    if (!file) return mps__plugin_fail(why, MPS_E_IO, "it cannot be read: %s", strerror(errno));
+    const char *kind;
+    FILE *file = mps__regular_stream(p->path, O_RDONLY, &kind);
+    if (!file && kind) return mps__plugin_fail(why, MPS_E_IO, "%s", kind);
+    if (!file || fstat(fileno(file), &s) != 0) {
+        mps__plugin_fail(why, MPS_E_IO, "it cannot be read: %s", strerror(errno));
+        if (file) fclose(file);
+        return false;
+    }
     bool good = check_kind(file, why);
     if (good && !is_whole(file, (uint64_t)s.st_size))
         good = mps__plugin_fail(why, MPS_E_IO, "it is cut short or damaged");

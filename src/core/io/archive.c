@@ -2,6 +2,7 @@
 /* Archives: written part by part, read as a whole. */
 #define _POSIX_C_SOURCE 200809L
 #include "archive.h"
+#include "regular.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdio.h>
@@ -224,7 +225,10 @@ static mps_status check_parts(const mps__archive *a, const char *path)
 
 mps_status mps__archive_load(mps__archive *a, const char *path)
 {
-    FILE *file = fopen(path, "rb");
+    const char *why;
+    FILE *file = mps__regular_stream(path, O_RDONLY, &why);
+    if (!file && why)
+        return mps__fail(a->context, MPS_E_IO, "cannot read \"%.300s\": %s", path, why);
     if (!file) return io_failed(a->context, "read", path);
     mps_status status = read_all(a, file, path);
     fclose(file);

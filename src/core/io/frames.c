@@ -7,8 +7,10 @@
 #define _POSIX_C_SOURCE 200809L
 #include "frames.h"
 #include "frame_file.h"
+#include "regular.h"
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -227,7 +229,10 @@ static mps_status read_series(mps_frames *f)
 {
     bool good = false;
     snprintf(f->path, f->path_size, "%s/%s.pvd", f->folder, f->name);
-    FILE *file = fopen(f->path, "rb");
+    const char *why;
+    FILE *file = mps__regular_stream(f->path, O_RDONLY, &why);
+    if (!file && why)
+        return mps__fail(f->world->context, MPS_E_IO, "cannot read \"%.300s\": %s", f->path, why);
     if (!file) return errno == ENOENT ? MPS_OK : io_failed(f, "read", f->path);
     mps_status status = read_times(f, file, &good);
     if (status == MPS_OK && ferror(file))

@@ -3,7 +3,9 @@
  * triangle; ASCII files consist of words. A file without control characters is ASCII, whatever its
  * beginning; a file at least as long as its number of triangles requires is binary. */
 #include "stl.h"
+#include "regular.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <mps/numbers.h>
 #include <stdio.h>
@@ -34,9 +36,11 @@ static mps_status read_all(mps__context *c, FILE *in, file *f)
 
 static mps_status load(mps__context *c, file *f)
 {
-    errno = 0;
-    FILE *in = fopen(f->path, "rb");
-    if (!in) return mps__fail(c, MPS_E_IO, "cannot open \"%.200s\": %s", f->path, strerror(errno));
+    const char *why;
+    FILE *in = mps__regular_stream(f->path, O_RDONLY, &why);
+    if (!in)
+        return mps__fail(c, MPS_E_IO, "cannot open \"%.200s\": %s", f->path,
+                         why ? why : strerror(errno));
     const mps_status status = read_all(c, in, f);
     fclose(in);
     return status;
