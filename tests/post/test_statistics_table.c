@@ -135,7 +135,7 @@ static void errors(void **state)
     write_file("t[s],a\n0,1\0\n", 12);
     ASSERT_SAYS(mps_table_read(&config, path, 0, NULL, &table), MPS_E_IO, ":2: has a byte 0");
     ASSERT_SAYS(mps_table_read(&config, "no/such", 0, NULL, &table), MPS_E_IO, strerror(ENOENT));
-    ASSERT_SAYS(mps_table_read(&config, ".", 0, NULL, &table), MPS_E_IO, strerror(EISDIR));
+    ASSERT_SAYS(mps_table_read(&config, ".", 0, NULL, &table), MPS_E_IO, "it is a folder");
     ASSERT_SAYS(mps_table_read(&config, NULL, 0, NULL, &table), MPS_E_ARG, "path is NULL");
     ASSERT_SAYS(mps_table_read(&config, path, -1, NULL, &table), MPS_E_ARG, "count is -1");
     ASSERT_SAYS(mps_table_read(&config, path, 1, nothing, &table), MPS_E_ARG, "names[0]");
