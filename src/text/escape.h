@@ -24,7 +24,8 @@ size_t mps__xml_character(const char *text, char out[8]);
 size_t mps__json_character(const char *text, char out[8]);
 
 /* A word of a command line as a shell reads it: in double quotes if other characters than letters,
- * digits and _ . , : / + = @ % - are in it, with a backslash before those that have a meaning there.
+ * digits and _ . , : / + = @ % - are in it, with a backslash before those that have a meaning
+ * there.
  * @param out  at most size-1 bytes of the word and a 0
  * @return bytes of the whole word, as snprintf() */
 size_t mps__shell_word(const char *word, char *out, size_t size);
