@@ -280,7 +280,7 @@ static void differ(opencl *o, opencl_kernel *k, const char *what, size_t at, con
 }
 
 /* Union-find trees of n rows: concurrent threads give different paths to the same roots. Bytes
- * behind the rows are of no loop: nobody has set them, and both sides keep them. */
+ * behind the rows are of no loop: they may never have been set, and both sides keep them. */
 static bool same_trees(const opencl_kernel *k, const opencl_block *r, int64_t n)
 {
     int32_t *const tree[2] = {(int32_t *)(void *)r->begin, (int32_t *)(void *)r->host};
