@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* mps info: detects the type of a file from its contents, and describes it. */
 #include "cli.h"
+#include "csv.h"
 #include "escape.h"
 #include "info.h"
 #include "record.h"
@@ -148,26 +149,39 @@ static bool describe_summary(const head *h)
     return true;
 }
 
+/* Read the numbers of the first column, or of none if they are texts. Words between blanks are no
+ * table of texts.
+ * @return false: it is no table */
+static bool read_first(const head *h, mps__csv *t, bool numbers)
+{
+    if (mps__csv_open(t, h->path, CSV_OWN) != CSV_OK || t->columns < 2) return false;
+    for (int32_t k = 0; k < t->columns; k++) t->wanted[k] = numbers && k == 0;
+    return mps__csv_read(t) == CSV_OK;
+}
+
 /* Describe a table: names of the columns, rows, first and last value of the first column. */
 static bool describe_table(const head *h)
 {
-    char line[65536], last[64] = "", first[64] = "";
-    long long rows = 0;
-    const size_t length = strcspn(h->text, "\n");
+    mps__csv t;
+    const char *separator = strpbrk(h->text, "\t;,\n");
     if (!is_text(h)) return false;
-    if (!memchr(h->text, ',', length) || length == h->count) return false;
-    printf("table\n");
-    for (const char *at = h->text; at < h->text + length; at += strcspn(at, ",\n") + 1)
-        printf("  %.*s\n", (int)strcspn(at, ",\n"), at);
-    rewind(h->file);
-    if (!fgets(line, sizeof line, h->file)) return true;
-    while (fgets(line, sizeof line, h->file)) {
-        line[strcspn(line, ",\n")] = '\0';
-        snprintf(last, sizeof last, "%.40s", line);
-        if (rows++ == 0) memcpy(first, last, sizeof first);
+    bool good = read_first(h, &t, true);
+    if (!good && separator && *separator != '\n') {
+        mps__csv_free(&t);
+        good = read_first(h, &t, false);
     }
-    printf("%lld rows, first column %s .. %s\n", rows, first, last);
-    return true;
+    if (good) {
+        printf("table\n");
+        for (int32_t k = 0; k < t.columns; k++)
+            printf("  %s%s%s%s\n", t.name[k], t.unit[k][0] ? " [" : "", t.unit[k],
+                   t.unit[k][0] ? "]" : "");
+        printf("%lld rows", (long long)t.rows);
+        if (t.rows > 0 && t.value[0])
+            printf(", first column %.9g .. %.9g", t.value[0][0], t.value[0][t.rows - 1]);
+        printf("\n");
+    }
+    mps__csv_free(&t);
+    return good;
 }
 
 /* ---- all ---- */

@@ -179,6 +179,16 @@ printf 'a\001,b\n1,2\n' > control
 expect 2 "is no file of mps" "$program" info control
 printf 'a\t,b\r\n1,2\n' > windows.csv
 expect 0 "1 rows, first column 1 .. 1" "$program" info windows.csv
+for separator in '\t' ';' , ' '; do # as motion tables
+    printf "time$separator\"roll, of it [deg]\"$separator\"P [Pa]\"\n0${separator}1${separator}2\n.5${separator}2${separator}3\n" > other.txt
+    expect 0 "2 rows, first column 0 .. 0.5" "$program" info other.txt
+    for line in time 'roll, of it \[deg\]' 'P \[Pa\]'; do says "^  $line$"; done
+done
+printf 'run,P[Pa]\n001,2\nA a,3\n' > names.csv
+expect 0 "2 rows" "$program" info names.csv
+says "^  P \[Pa\]$"
+printf 'run of P\nno table at\n' > three.txt
+expect 2 "is no file of mps" "$program" info three.txt
 printf '# of mine\nmps: 1\n' > comment.yaml
 expect 0 "case; 'mps check'" "$program" info comment.yaml
 printf 'mps: 1\ntitle: A tank\ndp: 1 m\n' > titled.yaml
