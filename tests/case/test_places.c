@@ -57,7 +57,9 @@ static void gauges(void **state)
     static const char *const bad[][2] = {
         {"g: {gauge: 0.6 m}", "sensors.g.gauge|(0.6, -0.1) m, outside of the tank"},
         {"g: {gauge: 0 -0.2 m}", "(0, -0.2) m, outside of the tank|(-0.4, -0.1) to (0.4, 0.4) m"},
-        {"g: {gauge: 0.16 m}", "sensors.g.gauge|within solid 'block'"}};
+        {"g: {gauge: 0.16 m}", "sensors.g.gauge|within solid 'block'"},
+        {"g: {pressure: 0.16 -0.05 m}", "sensors.g.pressure|within solid 'block'"},
+        {"g: {pressure: 0.16 -0.15 m}", "sensors.g.pressure|outside of the tank"}};
     char text[700];
     (void)state;
     for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
@@ -72,6 +74,72 @@ static void gauges(void **state)
     has(text, "g: gauge at (0.55, 0.015, 0) m");
     snprintf(text, sizeof text, lying, "g: {gauge: 0.55 0.26 m}");
     refused(text, 7, "sensors.g.gauge|outside of the tank");
+}
+
+/* A prism of `n` corners along x as an STL file: a lying tube of 24, a box of 4. */
+static void write_prism(const char *path, int32_t n, double radius, double turn, const double *span)
+{
+    FILE *f = fopen(path, "w");
+    assert_non_null(f);
+    fprintf(f, "solid prism\n");
+    for (int32_t k = 0; k < 4 * n; k++) {
+        double y[2], z[2];
+        for (int32_t e = 0; e < 2; e++) {
+            const double angle = 2 * 3.14159265358979323846 * (k / 4 + e) / n + turn;
+            y[e] = radius * cos(angle), z[e] = radius * sin(angle);
+        }
+        const double *a = span, *b = span + 1;
+        const double corner[4][9] = {{*a, y[0], z[0], *b, y[0], z[0], *b, y[1], z[1]},
+                                     {*a, y[0], z[0], *b, y[1], z[1], *a, y[1], z[1]},
+                                     {*a, 0, 0, *a, y[0], z[0], *a, y[1], z[1]},
+                                     {*b, 0, 0, *b, y[1], z[1], *b, y[0], z[0]}};
+        fprintf(f, "facet normal 0 0 0\nouter loop\n");
+        for (int32_t v = 0; v < 9; v += 3)
+            fprintf(f, "vertex %.9g %.9g %.9g\n", corner[k % 4][v], corner[k % 4][v + 1],
+                    corner[k % 4][v + 2]);
+        fprintf(f, "endloop\nendfacet\n");
+    }
+    fprintf(f, "endsolid prism\n");
+    fclose(f);
+}
+
+/* Tanks and solids of files: the line of a gauge begins where it meets the shell. */
+static void gauges_in_files(void **state)
+{
+    static const char tube[] = "mps: 1\ndim: 3\ndp: 25 mm\ntank: {stl: \"%s\", unit: m}\n"
+                               "solids: {block: {stl: \"%s\", unit: m}}\n"
+                               "fill: [{water: {depth: 0.27 m}}]\nsensors:\n  %s\n" END;
+    static const char *const good[][2] = {
+        {"g: {gauge: 0.1 0 m}", "g: gauge at (0.1, -0.25, 0) m"},
+        {"g: {gauge: 0.1 -0.1 0.1 m}", "g: gauge at (0.1, -0.1, 0.1) m"},
+        {"g: {gauge: 0.3 0.09 0 m}", "g: gauge at (0.3, 0.09, 0) m"},
+        {"g: {pressure: 0.44 -0.03 0.03 m}", "g: pressure at (0.44, -0.03, 0.03) m"},
+        {"g: {pressure: 0.1 -0.2 0 m}", "g: pressure at (0.1, -0.2, 0) m"}};
+    static const char *const bad[][2] = {
+        {"g: {gauge: 0.3 0.3 m}", "outside of the tank"},
+        {"g: {gauge: 0.1 -0.24 0.2 m}", "sensors.g.gauge|outside of the tank"},
+        {"g: {pressure: 0.1 -0.24 0.2 m}", "sensors.g.pressure|outside of the tank"},
+        {"g: {gauge: 0.3 -0.03 0 m}", "sensors.g.gauge|within solid 'block'"},
+        {"g: {pressure: 0.3 -0.03 0.03 m}", "sensors.g.pressure|within solid 'block'"}};
+    char text[1300], shell[300], block[300];
+    (void)state;
+    kit_here(shell, sizeof shell, "places_tube.stl");
+    kit_here(block, sizeof block, "places_block.stl");
+    write_prism(shell, 24, 0.25, 0, (const double[]){0, 0.6});
+    write_prism(block, 4, 0.08 * sqrt(2), 3.14159265358979323846 / 4, (const double[]){0.2, 0.4});
+    for (size_t k = 0; k < sizeof good / sizeof *good; k++) {
+        snprintf(text, sizeof text, tube, shell, block, good[k][0]);
+        has(text, good[k][1]);
+    }
+    for (size_t k = 0; k < sizeof bad / sizeof *bad; k++) {
+        snprintf(text, sizeof text, tube, shell, block, bad[k][0]);
+        refused(text, 8, bad[k][1]);
+    }
+    snprintf(text, sizeof text, tube, shell, block, "g: {gauge: 0.1 0.24 m}");
+    char *all = check(text), *at = strstr(all, "g: gauge at (0.1, ");
+    assert_non_null(at); /* the shell is at -+sqrt(.25^2 - .24^2) */
+    assert_in_range((int)(1000 * (strtod(at + strlen("g: gauge at (0.1, "), NULL) + 0.2)), 90, 160);
+    free(all);
 }
 
 /* A line of the check from a word on, where the numbers of all shifts are the same. */
@@ -267,8 +335,9 @@ static void words(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(gauges),    cmocka_unit_test(shifted),
-                                       cmocka_unit_test(levels),    cmocka_unit_test(left_out),
-                                       cmocka_unit_test(one_round), cmocka_unit_test(words)};
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(gauges), cmocka_unit_test(gauges_in_files), cmocka_unit_test(shifted),
+        cmocka_unit_test(levels), cmocka_unit_test(left_out),        cmocka_unit_test(one_round),
+        cmocka_unit_test(words)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

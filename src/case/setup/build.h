@@ -161,6 +161,10 @@ double mps__modes_period(const build *b, double length);
 const char *mps__modes_without(const build *b);
 /* Find solids that pierce the free surface. */
 void mps__build_blocks(build *b);
+/* Whether a position is half a spacing or more behind walls that are none of a thin plate: outside
+ * of the tank, or inside a solid.
+ * @param part  out: the part of these walls */
+bool mps__wall_behind(build *b, const double *x, int32_t *part);
 void mps__build_motion(build *b);
 void mps__build_body(build *b);
 /* Add columns of the motion, prescribed or of the body, and of what drives the body. */

@@ -109,25 +109,6 @@ static void begin(const sensing *s, mps_probe *probe, int32_t type)
     read_common(s, probe);
 }
 
-static void add_point(const sensing *s, const char *key, int32_t type)
-{
-    mps_probe probe;
-    begin(s, &probe, type);
-    probe.at[2] = mps__build_middle(s->b);
-    mps__read_numbers(s->b->c, s->map, key, 3, probe.at);
-    if (!mps__case_failed(s->b->c)) mps__sensor_add(s, &probe, 0, 0, s->map->key);
-}
-
-static void add_wall(const sensing *s)
-{
-    add_point(s, "wall", MPS_PROBE_WALL_PRESSURE);
-}
-
-static void add_fluid(const sensing *s)
-{
-    add_point(s, "pressure", MPS_PROBE_FLUID_PRESSURE);
-}
-
 /* As filled to a depth, or the highest particle of the liquid. */
 double mps__still_level(build *b)
 {
@@ -146,48 +127,98 @@ double mps__still_level(build *b)
     return b->level = level;
 }
 
-/* Height of the floor below a position: where a vertical line enters the tank. For a file it is the
- * lower end of its box. */
-static double floor_below(const build *b, const double *x)
+/* Whether a position is in the tank, by its shape or, for a file, by its walls as built. */
+static bool in_tank(build *b, const double *x)
+{
+    int32_t part;
+    if (!b->tank.file) return mps__form_inside(&b->tank.form, x) > 0;
+    return !mps__wall_behind(b, x, &part) || part != mps_part_find(b->sim, "tank");
+}
+
+/* Height of the floor below a position: where a vertical line enters the tank. */
+static double floor_below(build *b, const double *x)
 {
     const form *t = &b->tank.form;
     double at[3] = {x[0], t->lo[1], x[2]};
-    if (t->kind == FORM_BOX) return t->lo[1];
-    while (at[1] < t->hi[1] && mps__form_inside(t, at) <= 0) at[1] += 0.25 * b->dp;
+    if (!b->tank.file && t->kind == FORM_BOX) return t->lo[1];
+    while (at[1] < t->hi[1] && !in_tank(b, at)) at[1] += 0.25 * b->dp;
     return at[1] < t->hi[1] ? at[1] : t->lo[1];
 }
 
-/* The line of a gauge begins in the tank or on its wall, and not inside a solid: otherwise it never
- * meets the liquid. */
-static void check_foot(const sensing *s, const mps_probe *probe)
+/* Name of the solid that contains this position, or NULL. */
+static const char *solid_at(build *b, const double *x)
 {
-    const build *b = s->b;
-    const form *t = &b->tank.form;
-    const tree_node *at = mps__tree_find(s->map, "gauge");
-    const double slack = 1e-6 * b->dp;
-    bool outside = !b->tank.file && mps__form_inside(t, probe->at) < -slack;
-    for (int32_t d = 0; d < b->dim; d++)
-        outside = outside || probe->at[d] < t->lo[d] - slack || probe->at[d] > t->hi[d] + slack;
-    const double begin[3] = {probe->at[0], probe->at[1] + 0.25 * b->dp, probe->at[2]};
-    for (int32_t i = 0; !outside && i < b->solids; i++) { /* a foot may be on a face */
+    int32_t part;
+    const bool behind = mps__wall_behind(b, x, &part);
+    for (int32_t i = 0; i < b->solids; i++) {
         const build_solid *o = &b->solid[i];
-        if (o->plate || o->file || mps__form_inside(&o->form, begin) <= slack) continue;
+        if (o->plate) continue;
+        if (o->file ? behind && part == mps_part_find(b->sim, o->name)
+                    : mps__form_inside(&o->form, x) > 1e-6 * b->dp)
+            return o->name;
+    }
+    return NULL;
+}
+
+static bool is_outside(build *b, const double *x)
+{
+    const form *t = &b->tank.form;
+    const double slack = 1e-6 * b->dp;
+    bool outside = b->tank.file ? !in_tank(b, x) : mps__form_inside(t, x) < -slack;
+    for (int32_t d = 0; d < b->dim; d++)
+        outside = outside || x[d] < t->lo[d] - slack || x[d] > t->hi[d] + slack;
+    return outside;
+}
+
+/* A sensor in the liquid is in the tank or on its wall, and not inside a solid: otherwise it never
+ * meets the liquid.
+ * @param what   "the line begins": with the verb
+ * @param above  height above `x` that must be free: the foot of a line may be on a face [m] */
+static void check_place(const sensing *s, const char *key, const char *what, const double *x,
+                        double above)
+{
+    build *b = s->b;
+    const form *t = &b->tank.form;
+    const tree_node *at = mps__tree_find(s->map, key);
+    const double free[3] = {x[0], x[1] + above, x[2]};
+    if (is_outside(b, x)) {
+        char text[3][80];
+        const double *place[] = {x, t->lo, t->hi};
+        for (int k = 0; k < 3; k++)
+            snprintf(text[k], sizeof text[k], b->dim == 3 ? "(%g, %g, %g)" : "(%g, %g)",
+                     place[k][0], place[k][1], place[k][2]);
         mps__case_log(b->c, at, false,
-                      "sensors.%s.gauge: the line begins within solid '%s'; give a whole point "
-                      "above it, 'x y%s'",
-                      s->map->key, o->name, b->dim == 3 ? " z" : "");
+                      "sensors.%s.%s: %s at %s m, outside of the tank, whose box reaches from %s "
+                      "to %s m",
+                      s->map->key, key, what, text[0], text[1], text[2]);
         return;
     }
-    char text[3][80];
-    const double *place[] = {probe->at, t->lo, t->hi};
-    for (int k = 0; k < 3; k++)
-        snprintf(text[k], sizeof text[k], b->dim == 3 ? "(%g, %g, %g)" : "(%g, %g)", place[k][0],
-                 place[k][1], place[k][2]);
-    if (outside)
-        mps__case_log(b->c, at, false,
-                      "sensors.%s.gauge: the line begins at %s m, outside of the tank, whose box "
-                      "reaches from %s to %s m",
-                      s->map->key, text[0], text[1], text[2]);
+    const char *solid = solid_at(b, free);
+    if (solid)
+        mps__case_log(
+            b->c, at, false,
+            "sensors.%s.%s: %s within solid '%s'; give a whole point outside of it, 'x y%s'",
+            s->map->key, key, what, solid, b->dim == 3 ? " z" : "");
+}
+
+static void add_point(const sensing *s, const char *key, int32_t type)
+{
+    mps_probe probe;
+    begin(s, &probe, type);
+    probe.at[2] = mps__build_middle(s->b);
+    mps__read_numbers(s->b->c, s->map, key, 3, probe.at);
+    if (type == MPS_PROBE_FLUID_PRESSURE) check_place(s, key, "the point lies", probe.at, 0);
+    if (!mps__case_failed(s->b->c)) mps__sensor_add(s, &probe, 0, 0, s->map->key);
+}
+
+static void add_wall(const sensing *s)
+{
+    add_point(s, "wall", MPS_PROBE_WALL_PRESSURE);
+}
+
+static void add_fluid(const sensing *s)
+{
+    add_point(s, "pressure", MPS_PROBE_FLUID_PRESSURE);
 }
 
 /* "x", in 3-D "x z", or a whole point: the foot of the line. Coordinates are those of the case, as
@@ -205,7 +236,7 @@ static void add_gauge(const sensing *s)
     probe.at[2] = mps__build_middle(b);
     if (b->dim == 3 && given > 1) probe.at[2] = whole ? x[2] : x[1];
     probe.at[1] = whole ? x[1] : floor_below(b, probe.at);
-    check_foot(s, &probe);
+    check_place(s, "gauge", "the line begins", probe.at, 0.25 * b->dp);
     mps__read_numbers(b->c, s->map, "direction", 3, probe.direction);
     probe.length = mps__read_number(b->c, s->map, "length", probe.length);
     probe.count_drops = mps__read_flag(b->c, s->map, "drops", false);
