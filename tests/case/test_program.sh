@@ -73,6 +73,38 @@ grep -q '"dp": 0.01990171[0-9]*,' cells/summary.json && grep -q '"dp_requested":
     grep -q '"lattice": \[0.0198039[0-9]*, 0.02[0-9]*\]' cells/summary.json || fail "spacings of summary.json: $(grep -A3 '"dp"' cells/summary.json)"
 grep -q "19.8 mm x 20 mm" cells/report.html || fail "spacings on the page"
 
+# a tank of a file with two ribs: ribs thinner than the spacing are not resolved, and the check
+# compares the count of wall particles with the surface
+ribs() { # thickness in m; surfaces of the cells of a grid
+    awk -v t="$1" 'function corner(a, s, u, v,   k, p) {
+        k[a] = c[a] + s; k[(a + 1) % 3] = c[(a + 1) % 3] + u; k[(a + 2) % 3] = c[(a + 2) % 3] + v
+        for (p = 0; p < 3; p++) printf "%s%.9g", p ? " " : "vertex ", g[p, k[p]]
+        print "" }
+    function triangle(a, s, u1, v1, u2, v2) {
+        print "facet normal 0 0 0\nouter loop"; corner(a, s, 0, 0); corner(a, s, u1, v1); corner(a, s, u2, v2); print "endloop\nendfacet" }
+    function liquid(i, j, k) { return i >= 0 && i < 5 && j >= 0 && j < 2 && k == 0 && !(i % 2 && j == 0) }
+    BEGIN { split("0 0.3 r 0.7 s 1", x); x[3] = 0.3 + t; x[5] = 0.7 + t
+        for (i = 0; i < 6; i++) g[0, i] = x[i + 1]
+        g[1, 0] = 0; g[1, 1] = 0.4; g[1, 2] = 0.8; g[2, 0] = 0; g[2, 1] = 0.6
+        print "solid ribs"
+        for (c[0] = 0; c[0] < 5; c[0]++) for (c[1] = 0; c[1] < 2; c[1]++) { c[2] = 0
+            for (a = 0; a < 3 && liquid(c[0], c[1], 0); a++) for (s = 0; s < 2; s++) {
+                n[0] = c[0]; n[1] = c[1]; n[2] = 0; n[a] += 2 * s - 1
+                if (liquid(n[0], n[1], n[2])) continue
+                if (s) { triangle(a, s, 1, 0, 1, 1); triangle(a, s, 1, 1, 0, 1) }
+                else { triangle(a, s, 1, 1, 1, 0); triangle(a, s, 0, 1, 1, 1) } } }
+        print "endsolid ribs" }' > ribs.stl
+}
+printf 'mps: 1\ndim: 3\ndp: 50 mm\ntank: {stl: ribs.stl, unit: m}\nfill: [{water: {depth: 30 %%}}]\nrun: {until: 1 s}\n' > ribs.yaml
+ribs 0.2
+expect 0 "68 triangles" "$program" check ribs.yaml
+! grep -q "wall particles where" log || fail "ribs of four spacings: $(grep where log)"
+ribs 0.005
+expect 0 'warning: solid "tank" has ' "$program" check ribs.yaml
+read -r count wanted < <(sed -n 's/.* has \([0-9]*\) wall particles where its surface has \([0-9]*\) dp2: its parts.*/\1 \2/p' log)
+# four sides of the ribs, 0.4 x 0.6 m, are missing
+awk -v n="$count" -v w="$wanted" 'BEGIN {exit !(w > 1840 && w < 1912 && n < 0.9 * w && n > 0.7 * w)}' || fail "$count wall particles of $wanted"
+
 for list in cases keys models settings solvers units measures; do
     [ "$("$program" list $list | wc -l)" -gt 3 ] || fail "list $list"
 done

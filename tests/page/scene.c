@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Folders with pages for the tests in a browser, and the expected picture of the film, drawn here
  * from the paths of the particles.
- * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/chamfer, FOLDER/plate,
- * FOLDER/flat.rgb */
+ * usage: scene FOLDER: makes FOLDER/flat, FOLDER/deep, FOLDER/chamfer, FOLDER/plate, FOLDER/aft,
+ * FOLDER/bare, FOLDER/flat.rgb */
 #include "page_fixture.h"
 #include "page_scale.h"
 
@@ -73,10 +73,12 @@ static void draw(const scene *s, const char *path)
     free(picture);
 }
 
-static void make(scene *s, const char *folder, const char *name)
+/* @param more  more members of the summary */
+static void make(scene *s, const char *folder, const char *name, const char *more)
 {
     char path[512];
     scene_create(s);
+    write_summary(s, more);
     text_write(s, "case.yaml", "mps: 1\ntitle: a </script> in it\n");
     snprintf(path, sizeof path, "%.400s/%s", folder, name);
     if (page_of(s, 0, NULL) != MPS_OK || rename(s->folder, path) != 0) {
@@ -91,12 +93,16 @@ int main(int argc, char **argv)
     scene deep = {.dim = 3, .fluid = 700, .frames = 20, .rows = 300};
     scene chamfer = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true};
     scene plate = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300, .front = true, .plate = true};
+    scene aft = {.dim = 3, .fluid = 700, .frames = 2, .rows = 300}; /* its bow is along -z */
+    scene bare = {.dim = 2, .fluid = 400, .rows = 300};             /* no film */
     char path[512];
     if (argc != 2) return 2;
-    make(&flat, argv[1], "flat");
-    make(&deep, argv[1], "deep");
-    make(&chamfer, argv[1], "chamfer");
-    make(&plate, argv[1], "plate");
+    make(&flat, argv[1], "flat", "");
+    make(&deep, argv[1], "deep", ", \"inputs\": [{\"key\": \"motion.axes\", \"value\": \"x\"}]");
+    make(&chamfer, argv[1], "chamfer", "");
+    make(&plate, argv[1], "plate", "");
+    make(&aft, argv[1], "aft", ", \"inputs\": [{\"key\": \"motion.forward\", \"value\": \"-z\"}]");
+    make(&bare, argv[1], "bare", "");
     snprintf(path, sizeof path, "%.400s/flat.rgb", argv[1]);
     draw(&flat, path);
     return 0;

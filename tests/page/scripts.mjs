@@ -17,7 +17,11 @@ assert.equal(rounded(12345), "12,300");
 assert.equal(rounded(NaN), "–");
 assert.deepEqual(prefix(2e6, "N"), [1e-6, "M"]);
 assert.deepEqual([0, 1, 1.4, 1.6, 9].map((t) => nearest([0, 1, 2, 3], t)), [0, 1, 1, 2, 3]);
-assert.deepEqual(["P1[Pa]", "a,b", '"x"', "=1+1", "-3.5", "@x"].map(field), ["P1[Pa]", '"a,b"', '"""x"""', "'=1+1", "-3.5", "'@x"]);
+const fields = [["P1[Pa]"], ["a,b", '"a,b"'], ['"x"', '"""x"""'], ["-"], ["-3.5"], ["-3.5e-7"],
+    ["-0.1 m"], ["-1.0e-5 m/s2"], ["-12,300 N m", '"-12,300 N m"'], ["-0.1, -2 m", '"-0.1, -2 m"'],
+    ["=1+1", "'=1+1"], ["@x", "'@x"], ["+1+1", "'+1+1"], ["-1-A1", "'-1-A1"],
+    ["-1 cmd|' /C x'!A0", "'-1 cmd|' /C x'!A0"], ["-sum(A1)", "'-sum(A1)"], ["-3 m=1", "'-3 m=1"]];
+for (const [text, wanted] of fields) assert.equal(field(text), wanted ?? text);
 
 // The data elements of a page that C has written.
 const page = readFileSync(report, "utf8");

@@ -46,12 +46,13 @@ typedef struct build_solid {
     char name[BUILD_NAME];
     form form;
     bool plate, file, box;
-    double asked[2][3];            /* corners of a box, ends of the first side of a plate */
-    double end[2][3];              /* of the first side of a plate, as built */
-    const char *why;               /* why the solid differs as built; NULL: it does not */
-    int32_t slots;                 /* of a plate */
-    double pitch, gap;             /* of the slots, along the first side, as requested [m] */
-    int32_t pieces;                /* number of known pieces */
+    double asked[2][3];  /* opposite corners of a box or plate */
+    double end[2][3];    /* of the first side of a plate, as built */
+    double second[2][3]; /* from the first side to both ends of the second side, as built */
+    const char *why;     /* why the solid differs as built; NULL: it does not */
+    int32_t slots;       /* of a plate */
+    double pitch, gap;   /* of the slots, along the first side, as requested [m] */
+    int32_t pieces;      /* number of known pieces */
     double piece[BUILD_PIECES][2]; /* parts between slots as built: fractions of the first side */
 } build_solid;
 

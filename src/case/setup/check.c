@@ -110,9 +110,9 @@ static void write_solid(const writer *w, const build *b, const build_solid *s)
     for (int d = 0; d < 3; d++) {
         const double a = s->end[0][d], e = s->end[1][d];
         mps__solid_piece(s, 0, part);
-        from[d] = s->box ? s->form.lo[d] : a + part[0] * (e - a);
+        from[d] = s->box ? s->form.lo[d] : a + part[0] * (e - a) + s->second[0][d];
         mps__solid_piece(s, s->slots, part);
-        to[d] = s->box ? s->form.hi[d] : a + part[1] * (e - a);
+        to[d] = s->box ? s->form.hi[d] : a + part[1] * (e - a) + s->second[1][d];
         if (d < b->dim)
             off = fmax(off, fmax(fabs(from[d] - s->asked[0][d]), fabs(to[d] - s->asked[1][d])));
     }

@@ -123,18 +123,30 @@ static double on_lattice(const double *origin, const double *h, int d, double x)
     return origin[d] + floor((x - origin[d]) / h[d] + 0.5 + 1e-6) * h[d];
 }
 
+/* Ends of an edge of a plate on the lattice, as fractions of the requested edge. */
+static void edge_built(const plate *p, int e, int dim, const double *built, double along[2])
+{
+    along[0] = along[1] = 0;
+    for (int d = 0; d < dim; d++) {
+        const double way = p->edge[e][d] / (p->length[e] * p->length[e]);
+        const int near = way < 0;
+        along[0] += way * (built[near * dim + d] - p->corner[d]);
+        along[1] += way * (built[!near * dim + d] - p->corner[d]);
+    }
+}
+
 /* Record a plate as built on the lattice: the part between two slots as fractions of the first
- * side, and its position along its normal. */
+ * side, its second side, and its position along its normal. */
 static void note_piece(reading *r, const plate *p, const double *built)
 {
     build_solid *out = r->out;
     const int dim = r->b->dim;
-    double along[2] = {0, 0};
-    for (int d = 0; d < dim; d++) {
-        const double way = p->edge[0][d] / (p->length[0] * p->length[0]);
-        const int near = way < 0;
-        along[0] += way * (built[near * dim + d] - p->corner[d]);
-        along[1] += way * (built[!near * dim + d] - p->corner[d]);
+    double along[2], second[2];
+    edge_built(p, 0, dim, built, along);
+    if (dim == 3) {
+        edge_built(p, 1, dim, built, second);
+        for (int end = 0; end < 2; end++)
+            for (int d = 0; d < 3; d++) out->second[end][d] = second[end] * p->edge[1][d];
     }
     for (int end = 0; end < 2; end++)
         for (int d = 0; d < dim; d++)
@@ -191,7 +203,9 @@ static void add_plate(reading *r)
     r->out->plate = true;
     for (int d = 0; d < 3; d++) {
         r->out->asked[0][d] = r->out->end[0][d] = p.corner[d];
-        r->out->asked[1][d] = r->out->end[1][d] = p.corner[d] + p.edge[0][d];
+        r->out->end[1][d] = p.corner[d] + p.edge[0][d];
+        r->out->second[1][d] = p.edge[1][d];
+        r->out->asked[1][d] = r->out->end[1][d] + p.edge[1][d];
     }
     if (p.axis >= 0) r->out->why = "plates along axes are on the lattice";
     double begin = 0;

@@ -161,10 +161,17 @@ static int64_t first_from(const line *l, double s)
     return low;
 }
 
+/* Whether a place at this distance from the middle of a band is in it. Walls on the lattice are
+ * exactly two thirds of the default diameter away: they are outside, whatever the rounding. */
+static bool in_band(const line *l, double distance)
+{
+    return fabs(distance) < 4.0 / 3.0 * l->width * (1 - 1e-6);
+}
+
 static bool near_axis(const line *l, const beside *b)
 {
     bool near = true;
-    for (int32_t e = 0; e < l->sides; e++) near = near && fabs(b->across[e]) < 4.0 / 3.0 * l->width;
+    for (int32_t e = 0; e < l->sides; e++) near = near && in_band(l, b->across[e]);
     return near;
 }
 
@@ -244,8 +251,7 @@ static double clearance(const line *l, double s, const double shift[2], int32_t 
         const beside *b = &l->list[k];
         const double distance = sign * (b->across[e] - shift[e]);
         if (!b->solid || distance <= 0) continue;
-        if (l->sides == 2 && fabs(b->across[1 - e] - shift[1 - e]) >= 4.0 / 3.0 * l->width)
-            continue;
+        if (l->sides == 2 && !in_band(l, b->across[1 - e] - shift[1 - e])) continue;
         least = fmin(least, distance - 4.0 / 3.0 * l->width);
     }
     return least;

@@ -87,9 +87,12 @@ function save(name, blob) {
 
 const fileName = (title, end) => `${title.replace(/[^A-Za-z0-9]+/g, "_").replace(/^_+|_+$/g, "").slice(0, 60) || "data"}.${end}`;
 
+// A dash, or numbers with a sign and their unit: no formula.
+const signed = /^[-+]([\d.,]+(e[-+]?\d+)?( [-+]?[\d.,]+(e[-+]?\d+)?)*( [A-Za-z][\w/ ]*)?)?$/;
+
 // A field of CSV; one that a spreadsheet would take for a formula is a text.
 export const field = (text) => {
-    const own = /^[=+\-@\t]/.test(text) && !Number.isFinite(Number(text)) ? `'${text}` : text;
+    const own = /^[=+\-@\t]/.test(text) && !signed.test(text) ? `'${text}` : text;
     return /[",\n]/.test(own) ? `"${own.replaceAll('"', '""')}"` : own;
 };
 const csv = (rows) => new Blob([rows.map((row) => row.map((v) => field(String(v))).join(",")).join("\n") + "\n"], {type: "text/csv"});
@@ -137,10 +140,17 @@ function savePicture(chart) {
     out.toBlob((blob) => save(fileName(g.title, "png"), blob));
 }
 
+// What a table is about: its label, the heading before it or the summary of its part of the page.
+function tableName(table) {
+    const box = table.closest(".scroll") ?? table, before = table.previousElementSibling;
+    const head = before?.tagName === "H3" ? before : box.closest("details")?.querySelector("summary");
+    return box.getAttribute("aria-label") ?? head?.textContent ?? "table";
+}
+
 // A button for each table of the page.
 export function exportTables() {
-    for (const table of document.querySelectorAll(".scroll table, details > table")) {
-        const box = table.closest(".scroll") ?? table, name = box.getAttribute("aria-label") ?? box.closest("details")?.querySelector("summary")?.textContent ?? "table";
+    for (const table of document.querySelectorAll("table")) {
+        const box = table.closest(".scroll") ?? table, name = tableName(table);
         const rows = () => [...table.rows].map((r) => [...r.cells].map((c) => c.textContent.replaceAll("\u2212", "-").trim()));
         const buttons = saveButtons([["CSV", name, () => save(fileName(name, "csv"), csv(rows()))]]);
         if (box === table) table.before(buttons);

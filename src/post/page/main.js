@@ -29,6 +29,7 @@ byId("theme").addEventListener("click", () => {
     applyTheme();
 });
 matchMedia("(prefers-color-scheme: dark)").addEventListener("change", applyTheme);
+applyTheme(); // the page may have no film
 
 // ---- time ----
 

@@ -230,14 +230,17 @@ static void write_figures(FILE *out, const page_run *r)
 static void write_some(FILE *out, const page_run *r, const char *title, bool common)
 {
     char name[160];
-    fprintf(out, "<details><summary>%s</summary>\n<table class=\"facts\"><tbody>\n", title);
+    bool any = false;
     for (int32_t k = 0; k < r->columns; k++) {
         const page_column *c = &r->column[k];
         if (mps__is_common(c->name) != common) continue;
+        if (!any)
+            fprintf(out, "<details><summary>%s</summary>\n<table class=\"facts\"><tbody>\n", title);
+        any = true;
         snprintf(name, sizeof name, c->unit[0] ? "%.100s [%.40s]" : "%.100s", c->name, c->unit);
         row(out, name, c->about);
     }
-    fputs("</tbody></table></details>\n", out);
+    if (any) fputs("</tbody></table></details>\n", out);
 }
 
 static void write_columns(FILE *out, const page_run *r)

@@ -116,15 +116,74 @@ static light light_lost(const page_run *r)
 
 /* ---- energy ---- */
 
+/* Mean horizontal velocity of the liquid in the run, along x and z. Energies are relative to it:
+ * the uniform motion of a tank is not energy of its waves. */
+typedef struct inertial_frame {
+    const mps__csv *momentum;
+    double mass, velocity[2];
+    int64_t from; /* first row behind the first step */
+} inertial_frame;
+
+static const char *const along[2] = {"x", "z"};
+
+/* A value of momentum.csv along an axis in a row; 0 if there is no such column. */
+static double momentum_at(const inertial_frame *f, const char *name, int axis, int64_t row)
+{
+    char column[32];
+    snprintf(column, sizeof column, "%s_%s", name, along[axis]);
+    const int32_t k = f->velocity[axis] != 0 ? mps__page_table_find(f->momentum, column) : -1;
+    return k >= 0 ? f->momentum->value[k][row] : 0;
+}
+
+/* The weight times the time is a column: it gives the mass. Zero velocity if there is none. Liquid
+ * that begins with its tank takes its velocity in the first step, and rows in it are between both
+ * values. */
+static inertial_frame frame_of(const page_run *r)
+{
+    const mps__csv *t = &r->momentum;
+    const int32_t weight = mps__page_table_find(t, "gravity_y");
+    inertial_frame f = {.momentum = t};
+    if (weight < 0 || t->rows < 2 || t->rows != r->probes.rows) return f;
+    const int64_t last = t->rows - 1;
+    const double first_step = r->steps.rows > 0 ? r->steps.value[0][0] : 0;
+    while (f.from < last && t->value[0][f.from] < first_step) f.from++;
+    f.mass = fabs(t->value[weight][last]) / (mps__page_number(r, "gravity") * t->value[0][last]);
+    for (int axis = 0; axis < 2 && isfinite(f.mass) && f.mass > 0; axis++) {
+        f.velocity[axis] = 1; /* for momentum_at() */
+        double sum = 0;
+        for (int64_t i = f.from; i < t->rows; i++) sum += momentum_at(&f, "momentum", axis, i);
+        f.velocity[axis] = isfinite(sum) ? sum / (double)(t->rows - f.from) / f.mass : 0;
+    }
+    return f;
+}
+
 /* Energy in the wave: the largest kinetic energy and change of the potential one. */
-static double wave_energy(const mps__csv *t)
+static double wave_energy(const mps__csv *t, const inertial_frame *f)
 {
     const int32_t ke = mps__page_table_find(t, "ke"), pe = mps__page_table_find(t, "pe");
     double most = NAN;
     if (ke < 0 || pe < 0) return NAN;
-    for (int64_t i = 0; i < t->rows; i++) {
-        const double e = t->value[ke][i] + fabs(t->value[pe][i] - t->value[pe][0]);
+    for (int64_t i = f->from; i < t->rows; i++) {
+        double e = t->value[ke][i] + fabs(t->value[pe][i] - t->value[pe][0]);
+        for (int axis = 0; axis < 2; axis++)
+            e += f->velocity[axis] *
+                 (0.5 * f->mass * f->velocity[axis] - momentum_at(f, "momentum", axis, i));
         if (isfinite(e) && !(most >= e)) most = e;
+    }
+    return most;
+}
+
+/* Largest work of the walls. */
+static double wall_work(const mps__csv *t, const inertial_frame *f)
+{
+    const int32_t k = mps__page_table_find(t, "wall_work_momentum");
+    double most = NAN;
+    for (int64_t i = 0; k >= 0 && i < t->rows; i++) {
+        double work = t->value[k][i];
+        for (int axis = 0; axis < 2; axis++)
+            work -= f->velocity[axis] *
+                    (momentum_at(f, "pressure", axis, i) + momentum_at(f, "reaction", axis, i));
+        if (isfinite(work) && !(most >= fabs(work))) most = fabs(work);
     }
     return most;
 }
@@ -137,9 +196,9 @@ static double last_of(const page_run *r, const char *name)
 
 /* A forced motion passes energy through the liquid during the whole run, and dissipation scales
  * with it: the reference is the larger of the energy of the wave and the work of the walls. */
-static double measure_of_energy(const page_run *r, bool *walls)
+static double measure_of_energy(const page_run *r, const inertial_frame *f, bool *walls)
 {
-    const double wave = wave_energy(&r->probes), work = largest(&r->probes, "wall_work_momentum");
+    const double wave = wave_energy(&r->probes, f), work = wall_work(&r->probes, f);
     *walls = work > wave;
     return *walls ? work : wave;
 }
@@ -152,8 +211,11 @@ static light light_energy(const page_run *r)
     char share[TEXT_NUMBER], base[TEXT_NUMBER], rest[TEXT_NUMBER];
     const char *unit = mps__page_number(r, "dim") == 3 ? "J" : "J/m";
     bool walls = false;
-    const double all = measure_of_energy(r, &walls), numerical = last_of(r, "numerical");
-    const double sum = numerical + last_of(r, "shift") + last_of(r, "viscous");
+    const inertial_frame f = frame_of(r);
+    const double all = measure_of_energy(r, &f, &walls), numerical = last_of(r, "numerical");
+    double sum = numerical + last_of(r, "shift") + last_of(r, "viscous");
+    for (int axis = 0; axis < 2; axis++)
+        sum += f.velocity[axis] * momentum_at(&f, "shift", axis, f.momentum->rows - 1);
     const double open = fmin(fabs(numerical), fabs(sum));
     l.state = by_limits(all > 0 ? open / all : NAN, 0.1, 0.3);
     snprintf(l.value, sizeof l.value, "%s %%", mps__rounded(share, 100 * open / all));
