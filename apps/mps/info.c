@@ -161,7 +161,7 @@ static bool describe_table(const head *h)
         printf("  %.*s\n", (int)strcspn(at, ",\n"), at);
     rewind(h->file);
     if (!fgets(line, sizeof line, h->file)) return true;
-    while (fgets(line, sizeof line, h->file)) {
+    while (fgets(line, sizeof line, h->file) && strchr(line, '\n')) { /* a whole row */
         line[strcspn(line, ",\n")] = '\0';
         snprintf(last, sizeof last, "%.40s", line);
         if (rows++ == 0) memcpy(first, last, sizeof first);

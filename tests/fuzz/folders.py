@@ -79,7 +79,7 @@ CONTENT = {"bytes": bytes_, "number": number, "piece": piece, "line": line, "cut
 
 
 def huge(r: random.Random, path: Path, files: list[Path]) -> None:
-    os.truncate(path, 1 << r.choice((25, 33, 45)))  # without blocks on the disk
+    os.truncate(path, 1 << r.choice((25, 33, 40)))  # without blocks on the disk
 
 
 def swap(r: random.Random, path: Path, files: list[Path]) -> None:

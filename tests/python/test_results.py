@@ -194,6 +194,9 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(found[-1].peak / 16.1e3, 1, delta=1e-2)
         self.assertEqual((found.info.threshold, found.weibull.state), (1e3, mps.MPS_FIT_FEW))
         self.assertEqual(len(run.impacts("P1", threshold=1e6)), 0)
+        with self.assertRaisesRegex(mps.ArgumentError, "probes.csv: column 'P1': p.3. is inf"):
+            (folder / "probes.csv").write_text("t[s],P1[Pa]\n0,1\n1,1\n2,1\n3,inf\n4,1\n")
+            mps.Run(folder).impacts("P1")
         with self.assertRaisesRegex(mps.ArgumentError, "a pressure is wanted"):
             run.impacts("P1", threshold="1 kg")
         with self.assertRaisesRegex(mps.ArgumentError, "unknown entry 'treshold'; allowed are .*threshold"):

@@ -162,12 +162,12 @@ class FrameSeries(Sequence[Frame]):
 class Impacts(Sequence[Record]):
     """Impacts in one column: its events in the order of time, as records with t, peak, rise, decay, duration, impulse, unresolved."""
 
-    def __init__(self, name: str, config: Any, error: Any, t: np.ndarray, p: np.ndarray) -> None:
+    def __init__(self, name: str, path: Path, config: Any, error: Any, t: np.ndarray, p: np.ndarray) -> None:
         self.name, found = name, POINTER(T.mps_impacts)()
         t, p = np.ascontiguousarray(t), np.ascontiguousarray(p)
         status = c.mps_impacts_find(byref(config), len(t), *[a.ctypes.data_as(POINTER(ctypes.c_double)) for a in (t, p)], byref(found))
         if status < 0:
-            raise errors.error(status, text(error.value))
+            raise errors.error(status, f"{path}: column '{name}': {text(error.value)}")
         try:
             self.info = self._got(c.mps_impacts_info_get, T.mps_impacts_info, found)
             self._events = [self._got(c.mps_impacts_get, T.mps_impact, found, k) for k in range(self.info.events)]
@@ -293,7 +293,7 @@ class Run:
             status = c.mps_stats_config_set(byref(config), one.encode()) if status >= 0 else status
         if status < 0:
             raise errors.error(status, text(error.value))
-        return Impacts(column, config, error, self.columns["t"], self.columns[column])
+        return Impacts(column, self.columns.path, config, error, self.columns["t"], self.columns[column])
 
     def __repr__(self) -> str:
         return f"<mps.Run {self.folder}: {self.status}, {len(self.columns) if self.columns.path.exists() else 'no'} columns, {len(self.frames)} frames>"
