@@ -158,15 +158,21 @@ static bool choose_column(build *b, const tree_node *map, const char *name, seri
     return false;
 }
 
+/* The unit of columns of these kinds: angles are in degrees. */
+static const char *unit_of(uint64_t kinds)
+{
+    return kinds == UNIT_ANGLE ? "deg" : mps__unit_si(kinds);
+}
+
 /* Convert the values to the unit of their column, or of the columns of their kind. Values that are
  * all 0 have any unit. @return false: there is a message */
 static bool convert(build *b, const tree_node *map, series *s)
 {
     const build_column *c = s->column ? s->column : b->column;
     while (!s->column && c && !(kinds_of(c->unit) & s->kinds)) c = c->next;
-    s->unit = c ? c->unit : s->kinds == UNIT_ANGLE ? "deg" : mps__unit_si(s->kinds);
+    s->unit = c ? c->unit : unit_of(s->kinds);
     if (c && !(kinds_of(c->unit) & s->kinds)) {
-        const char *given = mps__unit_si(s->kinds);
+        const char *given = unit_of(s->kinds);
         mps__case_log(b->c, map, false,
                       "the values have %s%s%s, column '%s' has %s%s%s; give another 'column', or "
                       "values in a unit of that kind",
