@@ -115,7 +115,7 @@ static bool belongs(const collect_entry *e, const char *column)
 
 static bool refuse_entry(const collect *s, const char *word, const char *why)
 {
-    fprintf(stderr, "mps %s: collect: '%s' %s", s->verb, word, why);
+    fprintf(stderr, "mps %s: %s: collect: '%s' %s", s->verb, s->from, word, why);
     for (int i = 0; i < STATISTIC_COUNT; i++)
         fprintf(stderr, "%s%s", i ? ", " : " ", STATISTICS[i].name);
     fputc('\n', stderr);
@@ -123,9 +123,10 @@ static bool refuse_entry(const collect *s, const char *word, const char *why)
 }
 
 /* The texts stay in s->text. */
-bool collect_read(collect *s, const mps_case *tank, const char *name)
+bool collect_read(collect *s, const mps_case *tank, const char *name, const char *from)
 {
     s->verb = name;
+    s->from = from;
     s->entries = 0;
     if (!series_key(tank, "collect", s->text, sizeof s->text)) {
         s->entry[s->entries++] = (collect_entry){.sensor = ""};
@@ -158,13 +159,14 @@ bool collect_fits(const collect *s, const mps_table *rows)
             found = true;
             if (!STATISTICS[e->statistic].pressure || strcmp(unit, "Pa") == 0) continue;
             fprintf(stderr,
-                    "mps %s: collect: '%s.%s': column '%s' is no pressure: its unit is '%s', not "
-                    "'Pa'\n",
-                    s->verb, e->sensor, STATISTICS[e->statistic].name, name, unit);
+                    "mps %s: %s: collect: '%s.%s': column '%s' is no pressure: its unit is '%s', "
+                    "not 'Pa'\n",
+                    s->verb, s->from, e->sensor, STATISTICS[e->statistic].name, name, unit);
             return false;
         }
         if (found) continue;
-        fprintf(stderr, "mps %s: collect: no column of probes.csv is '%s'\n", s->verb, e->sensor);
+        fprintf(stderr, "mps %s: %s: collect: no column of probes.csv is '%s'\n", s->verb, s->from,
+                e->sensor);
         return false;
     }
     return true;

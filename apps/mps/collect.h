@@ -17,7 +17,7 @@ typedef struct collect_entry {
 } collect_entry;
 
 typedef struct collect {
-    const char *verb;
+    const char *verb, *from;
     char text[COLLECT_SIZE];
     collect_entry entry[COLLECT_MOST];
     int32_t entries;
@@ -25,8 +25,9 @@ typedef struct collect {
 
 /* Parse "[P1.max, F.last]" of the case; default: the largest value of each column.
  * @param name  of the verb
+ * @param from  file of the case, for messages; it is valid while `s` is used
  * @return false: an entry is invalid, with a message */
-bool collect_read(collect *s, const mps_case *tank, const char *name);
+bool collect_read(collect *s, const mps_case *tank, const char *name, const char *from);
 /* Check that each entry has a column, with a unit that fits.
  * @return false: one has none, with a message */
 bool collect_fits(const collect *s, const mps_table *rows);

@@ -2,10 +2,12 @@
 /* mps fmu: exports a case as an FMU, which programs with bodies import. */
 #include "fmu.h"
 #include "cli.h"
+#include "regular.h"
 #include "run_file.h"
 #include "zip.h"
 #include <ctype.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <mps/mps.h>
 #include <stdlib.h>
 #include <string.h>
@@ -25,11 +27,13 @@ static int refuse(const choices *c, int code, const char *what, const char *why)
 }
 
 /* Open the module in the folder of the program, or in its installed folder beside that one. NULL:
- * not found */
-static FILE *open_module(char *path, size_t size)
+ * not found, with errno, or *why */
+static FILE *open_module(char *path, size_t size, const char **why)
 {
     static const char name[] = "libmps_fmu.so";
-    if (mps__program_file(name, MODULE_FOLDER, path, size)) return fopen(path, "rb");
+    if (mps__program_file(name, MODULE_FOLDER, path, size))
+        return mps__regular_stream(path, O_RDONLY, why);
+    *why = NULL;
     snprintf(path, size, "%s", name);
     errno = ENOENT;
     return NULL;
@@ -130,9 +134,13 @@ static int make(const choices *c, mps_case *tank, const char *path)
         return MPS_EXIT_USAGE;
     }
     describe(&a, c, tank);
-    FILE *file = open_module(module, sizeof module);
+    const char *why;
+    FILE *file = open_module(module, sizeof module, &why);
     if (!file || !read_part(&p[2], file))
-        code = refuse(c, MPS_EXIT_FAILED, module, errno ? strerror(errno) : "it is empty");
+        code = refuse(c, MPS_EXIT_FAILED, module,
+                      why     ? why
+                      : errno ? strerror(errno)
+                              : "it is empty");
     else if (!write_part(&p[0], fmu_write_description, &a) ||
              !write_part(&p[1], fmu_write_page, &a))
         code = refuse(c, MPS_EXIT_FAILED, path, "no memory");

@@ -220,14 +220,14 @@ static void write_run(collection *g, FILE *out, int32_t i, const mps_table *firs
     mps_table_destroy(rows);
 }
 
-/* Read `collect` of the case of a run. */
-static bool read_collect(collection *g, const char *folder)
+/* Read `collect` of the case of a run.
+ * @param path  set to the file of the case */
+static bool read_collect(collection *g, const char *folder, char path[SERIES_PATH + 16])
 {
-    char path[SERIES_PATH + 16];
     mps_case *tank = NULL;
-    snprintf(path, sizeof path, "%s/case.yaml", folder);
+    snprintf(path, SERIES_PATH + 16, "%s/case.yaml", folder);
     const bool read = mps_case_read(path, 0, NULL, &tank) == MPS_OK;
-    const bool good = read && collect_read(&g->collect, tank, g->c->verb);
+    const bool good = read && collect_read(&g->collect, tank, g->c->verb, path);
     if (!read) fprintf(stderr, "mps collect: %s cannot be read as a case\n", path);
     mps_case_destroy(tank);
     return good;
@@ -245,18 +245,19 @@ static const char *table_path(const collection *g, char path[SERIES_PATH + 16])
 
 static int write_all(collection *g)
 {
-    char path[SERIES_PATH + 16];
+    char path[SERIES_PATH + 16], file[SERIES_PATH + 16];
     const char *table = table_path(g, path);
     mps_table *first = NULL;
     int32_t of = 0;
     for (; of < g->runs && !first; of++)
         if (summary_is_done(g->run[of].folder)) first = series_table(g->c, g->run[of].folder);
     if (!first) {
-        fprintf(stderr, "mps collect: none of %d runs is done\n", (int)g->runs);
+        fprintf(stderr, "mps collect: %s: none of %d runs is done\n", g->run[0].folder,
+                (int)g->runs);
         return MPS_EXIT_USAGE;
     }
     int code = MPS_EXIT_USAGE;
-    if (read_collect(g, g->run[of - 1].folder) && collect_fits(&g->collect, first)) {
+    if (read_collect(g, g->run[of - 1].folder, file) && collect_fits(&g->collect, first)) {
         FILE *out = collect_open(table);
         if (out) write_names(g, out, first);
         for (int32_t i = 0; out && i < g->runs; i++) write_run(g, out, i, first);

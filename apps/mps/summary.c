@@ -3,7 +3,6 @@
 #include "escape.h"
 #include "json.h"
 #include "regular.h"
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -17,7 +16,7 @@ static FILE *open_summary(const char *folder)
     char path[PATH_SIZE];
     const char *why;
     snprintf(path, sizeof path, "%s/summary.json", folder);
-    return mps__regular_stream(path, O_RDONLY, &why);
+    return mps__regular_summary(path, &why);
 }
 
 /* What is behind `wanted` in a line that begins with it and at most `most` blanks, until the end

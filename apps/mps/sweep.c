@@ -155,7 +155,7 @@ static bool open_sweep(sweep *s, const choices *c, int *code)
     else if (c->sets + s->paths > CLI_SETS)
         fprintf(stderr, "mps %s: at most %d values of --set and paths of 'sweep'\n", c->verb,
                 CLI_SETS);
-    else if (collect_read(&s->collect, s->tank, c->verb))
+    else if (collect_read(&s->collect, s->tank, c->verb, c->file[0]))
         return true;
     return false;
 }

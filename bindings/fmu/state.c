@@ -2,10 +2,12 @@
 /* States of a tank: snapshots; as bytes, checkpoints preceded by the values of the importer. */
 #include "adapter.h"
 #include <errno.h>
+#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 struct fmu_state {
@@ -89,10 +91,26 @@ static void path_of(const fmu *f, char *path, size_t size)
     snprintf(path, size, "%s/state.mps", f->model.folder);
 }
 
+/* The file in the folder of the model, which other programs can change: no link, and no FIFO, which
+ * would block forever. NULL with errno. */
+static FILE *open_file(const char *path, bool written)
+{
+    const int flags = written ? O_WRONLY | O_CREAT | O_EXCL : O_RDONLY;
+    struct stat s;
+    if (written && unlink(path) != 0 && errno != ENOENT) return NULL;
+    const int fd = open(path, flags | O_NOFOLLOW | O_NONBLOCK | O_NOCTTY | O_CLOEXEC, 0600);
+    const bool regular = fd >= 0 && fstat(fd, &s) == 0 && S_ISREG(s.st_mode);
+    FILE *file = regular ? fdopen(fd, written ? "wb" : "rb") : NULL;
+    const int number = fd >= 0 && !regular ? EINVAL : errno;
+    if (fd >= 0 && !file) close(fd);
+    errno = number;
+    return file;
+}
+
 /* Read the header and the file after it. @return false: errno */
 static bool read_file(fmu_state *s, const char *path, const head *h)
 {
-    FILE *file = fopen(path, "rb");
+    FILE *file = open_file(path, false);
     bool good = file && fseek(file, 0, SEEK_END) == 0;
     const long length = good ? ftell(file) : -1;
     good = length > 0 && fseek(file, 0, SEEK_SET) == 0;
@@ -182,7 +200,7 @@ static const char *check_head(const fmu *f, const head *h)
 
 static bool write_file(const char *path, const unsigned char *bytes, size_t size)
 {
-    FILE *file = fopen(path, "wb");
+    FILE *file = open_file(path, true);
     bool good = file && fwrite(bytes, 1, size, file) == size;
     if (file && fclose(file) != 0) good = false;
     return good;

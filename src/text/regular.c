@@ -42,3 +42,14 @@ FILE *mps__regular_stream(const char *path, int flags, const char **why)
     errno = number;
     return file;
 }
+
+FILE *mps__regular_summary(const char *path, const char **why)
+{
+    static const off_t most = 1 << 28;
+    struct stat s;
+    FILE *file = mps__regular_stream(path, O_RDONLY, why);
+    if (!file || (fstat(fileno(file), &s) == 0 && s.st_size <= most)) return file;
+    fclose(file);
+    errno = EFBIG;
+    return NULL;
+}

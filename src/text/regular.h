@@ -14,5 +14,8 @@ int mps__regular_open(const char *path, int flags, const char **why);
 /* Open a regular file as a stream, for reading, or for both with O_RDWR. The error is as of
  * mps__regular_open(). @return NULL: not opened */
 FILE *mps__regular_stream(const char *path, int flags, const char **why);
+/* Open summary.json for reading. A file of other content may have any size: one that is larger than
+ * each summary is refused with EFBIG. */
+FILE *mps__regular_summary(const char *path, const char **why);
 
 #endif

@@ -64,6 +64,55 @@ def response(tank, omega, motion, mass, stiffness, damping, load, own=(0.0, 1.0)
     return abs(load / (body - liquid)), abs(load / body)
 
 
+RIG = """mps: 1
+dp: 40 mm
+tank: {size: 0.8 0.4 m}
+fill: [{water: {depth: 0.08 m}}]
+body:
+  centre: 0.4 0 m
+  forward: z
+  mass: 1 t
+  inertia: 100 t m2
+  gravity: no
+  roll: {period: 1 s, friction: 10 kN m}
+  load: {file: push.csv, columns: {roll: M}}
+run: {until: 6.5 s}
+output: {frames: 1, page: 0 MB}
+"""
+
+
+def rig():
+    """The axis of a test rig has dry friction M, a drive pushes by a table. Free of the drive, the amplitude falls by 2 M/k each half
+    period, and the rig stops where |k phi| < M. The liquid is light; then it is not."""
+    with open("rig.yaml", "w", encoding="ascii") as out:
+        out.write(RIG)
+    with open("push.csv", "w", encoding="ascii") as out:
+        out.write("t[s],M[kN m]\n0,0\n0.3,120\n0.5,120\n0.501,0\n6.5,0\n")
+    run("run", "rig.yaml", "-q", "-j", "1", "-o", "rig")
+    c = columns("rig/probes.csv")
+    band = math.degrees(10e3 / (100e3 * (2 * math.pi) ** 2))
+    rate, begin = c["body_rate_roll"], c["t"].index(next(t for t in c["t"] if t > 0.51))
+    turns = [c["roll"][k] for k in range(begin, len(rate)) if rate[k - 1] != 0 and rate[k - 1] * rate[k] <= 0]
+    check(len(turns) == 10, f"{len(turns)} turning points, 10 until it stops")
+    falls = [abs(a) - abs(b) for a, b in zip(turns[:-2], turns[1:-1])]
+    worst = max(abs(fall / (2 * band) - 1) for fall in falls)
+    check(worst < 0.005, f"each half period takes 2 M/k = {2 * band:.4f} deg within {100 * worst:.2f} %, at most 0.5")
+    check(set(rate[-200:]) == {0.0} and abs(c["roll"][-1]) < band, f"it stands at {c['roll'][-1]:.3f} deg, within M/k = {band:.3f} deg")
+    check(abs(abs(turns[0]) - 9 * 2 * band - abs(c["roll"][-1])) < 0.1 * band, "it stands where the last half period ends")
+    lost = 0.5 * 100e3 * (2 * math.pi) ** 2 * math.radians(turns[0]) ** 2
+    rubbed = c["body_rubbed"][-1] - c["body_rubbed"][begin]
+    check(abs(rubbed / lost - 1) < 0.02, f"friction takes {rubbed:.0f} J/m of {lost:.0f} J/m in the spring")
+    # half of the tank is water, which has a moment; half of the friction holds, the double moves
+    for push, moves in ((0.5, False), (2, True)):
+        with open("push.csv", "w", encoding="ascii") as out:
+            out.write(f"t[s],M[N m]\n0,0\n0.2,{push * 80}\n0.6,{push * 80}\n")
+        run("run", "rig.yaml", "-q", "-j", "1", "-o", f"push{push}", "--set", "fill.water.depth=0.2 m", "--set", "body.inertia=20 kg m2", "--set",
+            "body.roll.friction=80 N m", "--set", "run.until=0.6 s")
+        c = columns(f"push{push}/probes.csv")
+        check(any(c["body_rate_roll"]) == moves, f"{push} times the friction: {max(c['roll']):.3g} deg")
+        check(max(map(abs, c["body_friction_roll"])) < 80 * (1 + 1e-9), "friction within its limit")
+
+
 SPRING = """mps: 1
 dp: 40 mm
 tank: {size: 0.8 0.5 m}
@@ -220,5 +269,6 @@ if __name__ == "__main__":
             ship()
         else:
             quick()
+            rig()
         os.chdir("/")
     sys.exit(1 if failures else 0)

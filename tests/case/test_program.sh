@@ -147,7 +147,10 @@ rm run/report.html
 expect 0 "run/report.html: " "$program" report run
 [ -s run/report.html ] || fail "no report.html by 'mps report'"
 expect 2 "needs the folder of a run" "$program" report nowhere
-expect 2 "page_bytes must be" "$program" run tank.yaml --set "output.page=100 kB" -o none -q
+for verb in "run -o none" check; do # in the words of a case, also before a run
+    # shellcheck disable=SC2086
+    expect 2 "output.page: 100 kB is too small, must be 500 kB or more" "$program" $verb tank.yaml --set "output.page=100 kB" -q
+done
 expect 2 "until" "$program" run tank.yaml --set run.until=5 -o none -q
 [ -e none ] && fail "a wrong case made a folder"
 expect 3 "" "$program" run tank.yaml --set "run.dt=20 ms" --set "motion.surge.amplitude=5 m" -o wild -q

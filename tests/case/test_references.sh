@@ -68,5 +68,90 @@ refused 's/known.csv/still.csv/' 'still.csv:4: the time 0.25 s is not later than
 grep -qF "bad.yaml:10:" log && grep -qF "still.csv:4: the time" log || fail "check of times: $(cat log)"
 [ ! -e bad ] || [ ! -e bad/probes.csv ] || fail 'a refused case has rows'
 
+# each column of a job: values in a unit of its kind are taken, others refused at their line, by
+# check as by run
+cat > body.yaml << 'END'
+mps: 1
+dp: 50 mm
+tank: {size: 0.6 0.4 m}
+fill: [{water: {depth: 0.2 m}}]
+body:
+  forward: x
+  centre: 0.3 0 m
+  mass: 50 kg
+  inertia: 5 kg m2
+  surge: {stiffness: 2 kN/m}
+  pitch: {stiffness: 100 N m/rad, friction: 1 N m}
+sensors:
+  P: {wall: 0 0.1 m}
+  row: {panel: [0 50 mm, 0 150 mm]}
+  p: {pressure: 0.3 0.1 m}
+  eta: {gauge: 0.3 m}
+  F: {force: tank}
+  mom: {load: momentum}
+  u: {measure: speed}
+  area: {measure: trapped gas}
+  lost: {measure: strays}
+run: {until: 0.01 s}
+output: {frames: 0, page: 0 MB}
+END
+cat > moved.yaml << 'END'
+mps: 1
+dim: 3
+dp: 100 mm
+tank: {size: 0.6 0.4 0.4 m}
+fill: [{water: {depth: 0.2 m}}]
+motion: {forward: x, surge: {amplitude: 1 mm, period: 1 s}, roll: {amplitude: 1 deg, period: 1 s}}
+sensors:
+  F: {force: tank}
+  hit: {load: walls}
+  vol: {measure: trapped gas}
+run: {until: 0.01 s}
+output: {frames: 0, page: 0 MB}
+END
+# name and unit of each column but the time
+columns() { head -1 "$1/probes.csv" | tr , '\n' | sed '1d; s/\]$//; s/\[/ /'; }
+for name in body moved; do
+    "$program" run $name.yaml -q -j 1 -o $name > log 2>&1 || fail "$name: $(cat log)"
+    { cat $name.yaml; echo 'reference:'; columns $name | awk '{i++; n = $1; $1 = ""; print "  r" i ": {column: " n ", times: 1 s, values: 2" $0 "}"}'; } > right.yaml
+    "$program" check right.yaml -q > log 2>&1 || fail "$name, units of the columns: $(cat log)"
+    "$program" run right.yaml -q -j 1 -o right --overwrite > log 2>&1 || fail "$name, units of the columns: $(cat log)"
+    columns $name | awk '{n = $1; $1 = ""; sub(/^ /, ""); print "\"unit\": \"" $0 "\", \"column\": \"" n "\", \"line\": false, \"points\": [[1, 2]]"}' > wanted
+    sed 's/\([0-9]\)\.[09]\{9,\}[0-9]*\]\]/\1]]/' right/summary.json > points
+    while read -r one; do grep -qF "$one" points || fail "$name: no $one"; done < wanted
+    # each alone, with a unit that no column has, and with the unit of another kind
+    columns $name | while read -r column unit; do
+        case $unit in Pa) other=m ;; *) other=Pa ;; esac
+        for wrong in kg/m3 $other; do
+            { cat $name.yaml; echo "reference: {r: {column: $column, times: 1 s, values: 2 $wrong}}"; } > wrong.yaml
+            "$program" check wrong.yaml -q > log 2>&1 && echo "$column takes $wrong"
+            grep -q "^wrong.yaml:$(wc -l < wrong.yaml):[0-9]*: error: the values have the unit '$wrong', column '$column' has " log || cat log
+        done
+    done > told
+    [ -s told ] && fail "$name: $(cat told)"
+    [ "$(columns $name | wc -l)" -gt 20 ] || fail "$name: few columns"
+done
+for unit in m m/s deg deg/s Pa N/m 'N m/m' J/m m2; do columns body | grep -q " $unit\$" || fail "no column in $unit"; done
+for unit in m deg N 'N m' J m3; do columns moved | grep -q " $unit\$" || fail "no column in $unit"; done
+columns body | grep -q '^lost *$' || fail "no column without a unit"
+# values without a unit, a table for a column without one, other multiples, no column
+told() { # reference, wanted message; "": taken
+    { cat body.yaml; echo "reference: {r: {$1}}"; } > one.yaml
+    "$program" check one.yaml -q > log 2>&1
+    [ $? -eq $((${#2} > 0 ? 2 : 0)) ] && { [ -z "$2" ] || grep -qF -- "$2" log; } || fail "$1: no '$2': $(cat log)"
+}
+printf 't[s],n\n1,2\n' > plain.csv
+told 'column: lost, times: 1 s, values: 2' ''
+told 'column: lost, file: plain.csv' ''
+told 'column: volume_error, times: 1 s, values: 2 %' ''
+told 'column: P, times: 1 s, values: 0' ''
+told 'column: P, times: 1 s, values: 2' "the values have no unit, column 'P' has 'Pa'"
+told 'column: P, file: plain.csv' "column 'n' has no unit"
+told 'column: lost, times: 1 s, values: 2 Pa' "column 'lost' has none"
+told 'column: F_z, times: 1 s, values: 2 N' "'F_z' is no column of probes.csv; give a 'column': "
+{ cat body.yaml; echo 'reference: {F: {times: 1 s, values: 2 N/m}}'; } > sensor.yaml
+"$program" check sensor.yaml -q > log 2>&1 && fail "a sensor of several columns is taken as one"
+grep -q "'F' is no column of probes.csv; give a 'column': .*F_x" log || fail "a sensor of several columns: $(cat log)"
+
 [ $failed -eq 0 ] && echo "references and figures are as the case says"
 exit $failed

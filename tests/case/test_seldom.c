@@ -161,7 +161,7 @@ static void no_level(void **state)
              "domain: [2 2 m, -1 -1 m]\nuse: [viscosity.pair]\nremove: collision\n"
              "sensors:\n  eta: {gauge: 0.25 m, drops: yes}\n  of_oil: {gauge: 0.75 m, fluid: oil}\n"
              "  front: {measure: front, box: [0 0 m, 1 0.1 m]}\n"
-             "  v: {measure: speed, fluid: oil}\n  roll: {measure: front, axis: x}\n"
+             "  v: {measure: speed, fluid: oil, axis: x}\n  roll: {measure: angle}\n"
              "reference:\n  roll: [{times: 1 2 s, values: 10 20 deg}, {times: 1 s, "
              "values: 5 deg, style: line, shift: 0.5 s}]\n"
              "run: {until: 8 ms, dt: 4 ms, threads: 1, preconditioner: jacobi}\n"

@@ -224,8 +224,8 @@ static void reference_units(void **state)
                {"t[s],p[kPa]\n0,1\n1,2\n", ", unit: Pa", "'kPa' in the table and 'Pa' in the case"},
                {"t[s],p[mm]\n0,1\n1,2\n", ", unit: Pa", "'mm' in the table and 'Pa' in the case"},
                {"t[mm],p[kPa]\n0,1\n1,2\n", "", "'t' has the unit 'mm', a time is wanted"},
-               {"t[s],p[mm]\n0,1\n1,2\n", "", "have the unit 'm', sensor 'P' has 'Pa'"},
-               {"t[s],p\n0,1\n1,2\n", ", unit: deg", "have the unit 'deg', sensor 'P' has 'Pa'"}};
+               {"t[s],p[mm]\n0,1\n1,2\n", "", "have the unit 'm', column 'P' has 'Pa'"},
+               {"t[s],p\n0,1\n1,2\n", ", unit: deg", "have the unit 'deg', column 'P' has 'Pa'"}};
     (void)state;
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) {
         char path[600], text[1000];

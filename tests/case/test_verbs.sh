@@ -117,6 +117,15 @@ expect 1 "cannot write 'statistics.csv' in 'done': File exists" "$program" stats
 [ -s done/statistics.json ] || fail "no statistics.json"
 rm -r done/statistics.csv
 
+# ---- files of any size end, and take no memory of their size
+cp -r done vast
+truncate -s 1T vast/summary.json vast/probes.csv
+expect 2 "mps collect: vast: none of 1 runs is done" timeout 60 "$program" collect vast
+expect 0 " rows, first column 0 .. " timeout 60 "$program" info vast/probes.csv
+([ "$slow" = 1 ] || ulimit -v 4000000; timeout 60 "$program" resume vast -q --set run.until="0.03 s" > log 2>&1)
+[ $? -le 2 ] || fail "resume with rows of any size: $(tail -2 log)"
+rm -r vast
+
 # ---- check: what it refuses
 expect 2 "no.yaml" "$program" check no.yaml
 expect 2 "fill.water.depth: 90 m is more than the tank is high" "$program" check small.yaml --set "fill.water.depth=90 m"

@@ -106,7 +106,7 @@ FAULT(long, ftell, (FILE * file), (file), EIO, -1)
 FAULT(size_t, fread, (void *to, size_t size, size_t count, FILE *file), (to, size, count, file),
       EIO, 0)
 /* ferror() is set afterwards: a file opened for reading cannot be written. */
-FAULT_AFTER(ssize_t, getline, (char **line, size_t *size, FILE *file), (line, size, file), EIO, -1,
+FAULT_AFTER(char *, fgets, (char *line, int size, FILE *file), (line, size, file), EIO, NULL,
             fputc(0, file))
 FAULT(int, ftruncate, (int file, off_t size), (file, size), EIO, -1)
 FAULT(ssize_t, write, (int file, const void *from, size_t size), (file, from, size), ENOSPC, -1)

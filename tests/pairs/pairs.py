@@ -293,7 +293,8 @@ class Machine:
             options += ["--device", "cuda"]
             env |= {"LD_LIBRARY_PATH": f"{standin}:{plugin}", "STANDIN_KERNELS": kernels}
         if draw["locale"] == "comma":
-            env |= {"LC_ALL": "de_DE.UTF-8", "LOCPATH": self.o.locales}
+            # the program alone, not what starts its ranks, is a host that has called setlocale()
+            before += ["env", f"LOCPATH={self.o.locales[0]}", f"LD_PRELOAD={self.o.locales[1]}"]
         return before, options, env
 
 
@@ -302,7 +303,7 @@ def second(machine, draw, folder):
     before, options, env = machine.ways(draw)
     if draw["door"] == "sweep":
         (folder / "two.yaml").write_text("mps: 1\nbase: case.yaml\nsweep: {title: [one, two]}\n")
-        machine.call(["sweep", "two.yaml", "-o", "sweep", *options], folder=folder, env=env)
+        machine.call(["sweep", "two.yaml", "-o", "sweep", *options], folder=folder, env=env, words_before=before)
         runs = [p.parent for p in sorted((folder / "sweep").glob("*/probes.csv"))]
         if len(runs) != 2:
             raise Failure(f"the sweep has {len(runs)} runs of 2")
@@ -479,13 +480,13 @@ def main():
     p.add_argument("--jobs", type=int, default=1, metavar="N", help="draws at the same time (1)")
     p.add_argument("--mpirun", help="starts ranks; without it, draws have one")
     p.add_argument("--device", nargs=3, metavar=("STANDIN", "PLUGIN", "KERNELS"), help="as tests/cuda/test_cases.sh takes them")
-    p.add_argument("--locales", metavar="DIR", help="LOCPATH that has de_DE.UTF-8")
+    p.add_argument("--locales", nargs=2, metavar=("DIR", "LIBRARY"), help="LOCPATH that has de_DE.UTF-8; comma.c as a library")
     p.add_argument("--work", metavar="DIR", help="for folders of runs; default: the system's")
     p.add_argument("--keep", metavar="DIR", help="folders of failed draws are copied to here")
     o = p.parse_args()
     o.program = o.program.resolve()
     o.device = o.device and [str(Path(p).resolve()) for p in o.device]  # runs are in folders of their own
-    o.locales = o.locales and str(Path(o.locales).resolve())
+    o.locales = o.locales and [str(Path(p).resolve()) for p in o.locales]
     if not o.program.exists():
         sys.exit(77)
     machine = Machine(o)

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import locale
 import os
+import re
 import shutil
+import stat
 import subprocess
 import tempfile
 import threading
@@ -131,6 +133,55 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(mps.FileError, "No such file"):
             _ = mps.Frame(self.folder / "none.vtp").n
 
+    def test_no_regular_files(self) -> None:
+        """What is no regular file is refused by its name; a FIFO does not block."""
+        run = self.copied("odd")
+        (run / "both.pvtp").write_text(PIECE)
+        uses = {"summary.json": lambda: mps.Run(run).inputs, "probes.csv": lambda: mps.Run(run).columns["P1"],
+                "steps.csv": lambda: dict(mps.Run(run).steps), "frames.pvd": lambda: len(mps.Run(run).frames),
+                "frames/frames_000000.vtp": lambda: mps.Run(run).frames[0]["position"], "both.pvtp": lambda: mps.Frame(run / "both.pvtp").n}
+        kinds = {"a pipe .FIFO.": os.mkfifo, "a folder": os.mkdir, "a device": lambda path: path.symlink_to("/dev/zero"),
+                 "a socket": lambda path: os.mknod(path, stat.S_IFSOCK | 0o600)}
+        for name, use in uses.items():
+            path, kept = run / name, (run / name).read_bytes()
+            for why, make in kinds.items():
+                path.unlink(missing_ok=True)
+                make(path)
+                with self.subTest(name, why=why), self.assertRaisesRegex(mps.FileError, f"{name}: it is {why}, no regular file"):
+                    use()
+                (path.rmdir if path.is_dir() else path.unlink)()
+            path.write_bytes(kept)
+            if name != "both.pvtp":  # whose pieces are not there
+                use()
+
+    def test_damaged_texts(self) -> None:
+        """A damaged text is an error with the name of its file."""
+        run = self.copied("damaged")
+        cases = [("summary.json", b"{", "no JSON"), ("summary.json", b"[" * 100000, "no JSON"), ("summary.json", b"[1]", "no keys"),
+                 ("summary.json", b"\xff", "no text in UTF-8"), ("summary.json", b'{"inputs": 3}', "'inputs' is no list"),
+                 ("summary.json", b'{"inputs": [{"key": "dp"}]}', "'inputs' is no list"), ("probes.csv", b"\xfft\n", "no text in UTF-8"),
+                 ("frames.pvd", b"\xff", "no text in UTF-8"),
+                 ("frames.pvd", b'<DataSet timestep="x" file="a"/>', "could not convert")]
+        for name, data, why in cases:
+            kept = (run / name).read_bytes()
+            (run / name).write_bytes(data)
+            with self.subTest(data[:30]), self.assertRaisesRegex(mps.FileError, f"{name}: .*{why}"):
+                _ = (mps.Run(run).inputs, dict(mps.Run(run).columns), mps.Run(run).frames.t)
+            (run / name).write_bytes(kept)
+        with open(run / "summary.json", "r+b") as file:
+            file.truncate(1 << 40)
+        with self.assertRaisesRegex(mps.FileError, "summary.json: 1099511627776 bytes are more than"):
+            _ = mps.Run(run).summary
+        (run / "summary.json").write_text("{}")
+        with self.assertRaisesRegex(mps.FileError, "summary.json: .*has no 'status'"):
+            _ = mps.Run(run).status
+        whole = self.run_.frames[0].path.read_bytes()
+        for name, word, why in (("TimeValue", b"x", "the time is no number"), ("part_names", b"999", "the names of the parts are")):
+            damaged = re.sub(rb'(Name="%s"[^>]*>)[^<]*<' % name.encode(), rb"\g<1>" + word + b"<", whole)
+            (run / "odd.vtp").write_bytes(damaged)
+            with self.subTest(name), self.assertRaisesRegex(mps.FileError, f"odd.vtp: no frame of libmps: {why}"):
+                _ = (mps.Frame(run / "odd.vtp").t, mps.Frame(run / "odd.vtp").part_names)
+
     def test_impacts(self) -> None:
         folder = self.copied("impacts")
         t = np.arange(0, 8, 1e-3)
@@ -143,6 +194,9 @@ class Results(unittest.TestCase):
         self.assertAlmostEqual(found[-1].peak / 16.1e3, 1, delta=1e-2)
         self.assertEqual((found.info.threshold, found.weibull.state), (1e3, mps.MPS_FIT_FEW))
         self.assertEqual(len(run.impacts("P1", threshold=1e6)), 0)
+        with self.assertRaisesRegex(mps.ArgumentError, "probes.csv: column 'P1': p.3. is inf"):
+            (folder / "probes.csv").write_text("t[s],P1[Pa]\n0,1\n1,1\n2,1\n3,inf\n4,1\n")
+            mps.Run(folder).impacts("P1")
         with self.assertRaisesRegex(mps.ArgumentError, "a pressure is wanted"):
             run.impacts("P1", threshold="1 kg")
         with self.assertRaisesRegex(mps.ArgumentError, "unknown entry 'treshold'; allowed are .*threshold"):

@@ -18,6 +18,7 @@ import numpy as np
 from . import _numbers as N
 from . import _structs as T
 from . import errors
+from ._files import open_regular, read_text, text_of
 from ._library import c
 from ._records import Record, coded, make, record, text
 from .frame import Frame
@@ -33,6 +34,7 @@ def _config(sets: Mapping[str, Any] | None = None) -> tuple[Any, Any]:
     return config, error
 
 
+_LINE = 1 << 20  # most bytes of the line of names
 _SINGLE = 2  # columns that are read alone: numbers cost more than lines
 
 
@@ -48,11 +50,12 @@ class Table(Mapping[str, np.ndarray]):
 
     @cached_property
     def _names(self) -> list[tuple[str, str]]:
+        with open_regular(self.path) as file:
+            line = text_of(file.readline(_LINE), self.path)
         try:
-            with open(self.path, newline="", encoding="utf-8") as file:
-                words = next(csv.reader([file.readline()]), [])
-        except OSError as e:
-            raise errors.error(N.MPS_E_IO, f"{self.path}: {e.strerror}") from None
+            words = next(csv.reader([line]), [])
+        except csv.Error as e:
+            raise errors.error(N.MPS_E_IO, f"{self.path}: {e}") from None
         return [(name, unit.rstrip("]")) for name, _, unit in (word.strip().partition("[") for word in words)]
 
     @property
@@ -120,8 +123,11 @@ class FrameSeries(Sequence[Frame]):
         path = self._folder / "frames.pvd"
         if not path.exists():
             return []
-        found = re.findall(r'<DataSet timestep="([^"]*)"[^>]* file="([^"]*)"', path.read_text(encoding="utf-8"))
-        return [(float(t), self._folder / file) for t, file in found]
+        found = re.findall(r'<DataSet timestep="([^"]*)"[^>]* file="([^"]*)"', read_text(path))
+        try:
+            return [(float(t), self._folder / file) for t, file in found]
+        except ValueError as e:
+            raise errors.error(N.MPS_E_IO, f"{path}: {e}") from None
 
     @property
     def t(self) -> np.ndarray:
@@ -156,12 +162,12 @@ class FrameSeries(Sequence[Frame]):
 class Impacts(Sequence[Record]):
     """Impacts in one column: its events in the order of time, as records with t, peak, rise, decay, duration, impulse, unresolved."""
 
-    def __init__(self, name: str, config: Any, error: Any, t: np.ndarray, p: np.ndarray) -> None:
+    def __init__(self, name: str, path: Path, config: Any, error: Any, t: np.ndarray, p: np.ndarray) -> None:
         self.name, found = name, POINTER(T.mps_impacts)()
         t, p = np.ascontiguousarray(t), np.ascontiguousarray(p)
         status = c.mps_impacts_find(byref(config), len(t), *[a.ctypes.data_as(POINTER(ctypes.c_double)) for a in (t, p)], byref(found))
         if status < 0:
-            raise errors.error(status, text(error.value))
+            raise errors.error(status, f"{path}: column '{name}': {text(error.value)}")
         try:
             self.info = self._got(c.mps_impacts_info_get, T.mps_impacts_info, found)
             self._events = [self._got(c.mps_impacts_get, T.mps_impact, found, k) for k in range(self.info.events)]
@@ -214,16 +220,34 @@ class Run:
     def status(self) -> str:
         """"ok", a failure code such as "diverged", or "unfinished": in progress, stopped or
         killed."""
-        return str(self.summary["status"]) if (self.folder / "summary.json").exists() else "unfinished"
+        if not (self.folder / "summary.json").exists():
+            return "unfinished"
+        status = self.summary.get("status")
+        if not isinstance(status, str):
+            raise errors.error(N.MPS_E_IO, f"{self.folder / 'summary.json'}: no summary of a run: it has no 'status'")
+        return status
 
     @property
     def summary(self) -> dict[str, Any]:
         """summary.json; its keys are explained in docs/tutorials/post_processing.md. FileError: the run has not written it yet."""
         path = self.folder / "summary.json"
+        if not path.exists():
+            raise errors.error(N.MPS_E_IO, f"{path}: not there: the run is unfinished; its columns and frames can be read")
         try:
-            return json.loads(path.read_text(encoding="utf-8"))  # type: ignore[no-any-return]
-        except FileNotFoundError:
-            raise errors.error(N.MPS_E_IO, f"{path}: not there: the run is unfinished; its columns and frames can be read") from None
+            found = json.loads(read_text(path))
+        except (ValueError, RecursionError) as e:
+            raise errors.error(N.MPS_E_IO, f"{path}: no JSON: {e}") from None
+        if not isinstance(found, dict):
+            raise errors.error(N.MPS_E_IO, f"{path}: no summary of a run: it has no keys")
+        return found
+
+    def _listed(self, key: str, name: str, value: str) -> dict[str, str]:
+        """A list of objects of summary.json, as {name: value}."""
+        try:
+            return {str(one[name]): str(one[value]) for one in self.summary[key]}
+        except (KeyError, TypeError):
+            why = f"'{key}' is no list with '{name}' and '{value}'"
+            raise errors.error(N.MPS_E_IO, f"{self.folder / 'summary.json'}: no summary of a run: {why}") from None
 
     @property
     def messages(self) -> list[str]:
@@ -235,12 +259,12 @@ class Run:
     @property
     def about(self) -> dict[str, str]:
         """Description and position of each column of `columns`."""
-        return {one["name"]: one["about"] for one in self.summary["columns"]}
+        return self._listed("columns", "name", "about")
 
     @property
     def inputs(self) -> dict[str, str]:
         """Inputs of the case by their paths, with units: {"fill.water.depth": "0.1 m"}."""
-        return {one["key"]: one["value"] for one in self.summary["inputs"]}
+        return self._listed("inputs", "key", "value")
 
     @property
     def case(self) -> Case:
@@ -269,7 +293,7 @@ class Run:
             status = c.mps_stats_config_set(byref(config), one.encode()) if status >= 0 else status
         if status < 0:
             raise errors.error(status, text(error.value))
-        return Impacts(column, config, error, self.columns["t"], self.columns[column])
+        return Impacts(column, self.columns.path, config, error, self.columns["t"], self.columns[column])
 
     def __repr__(self) -> str:
         return f"<mps.Run {self.folder}: {self.status}, {len(self.columns) if self.columns.path.exists() else 'no'} columns, {len(self.frames)} frames>"
@@ -280,7 +304,7 @@ class Sweep(Sequence[Run]):
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
-        found = sorted((p for p in self.folder.glob("[0-9]*") if p.name.isdigit() and p.is_dir()), key=lambda p: int(p.name))
+        found = sorted((p for p in self.folder.glob("[0-9]*") if re.fullmatch("[0-9]+", p.name) and p.is_dir()), key=lambda p: int(p.name))
         self._runs, failed = [], []
         for path in found:
             try:

@@ -100,19 +100,19 @@ static mps_status check_column(mps_job *job, const char *name, const char *unit,
 /* ---- probes ---- */
 
 /* Component of a probe for the description of its column; moments follow the forces. */
-static bool is_moment(const mps_job *job, const mps_probe *probe, int32_t component)
+static bool is_moment(int32_t dim, const mps_probe *probe, int32_t component)
 {
-    return probe->type == MPS_PROBE_FORCE && component >= job->dim;
+    return probe->type == MPS_PROBE_FORCE && component >= dim;
 }
 
-static const char *unit_of(const mps_job *job, const mps_probe *probe, int32_t component)
+const char *mps__job_probe_unit(int32_t dim, const mps_probe *probe, int32_t component)
 {
     switch (probe->type) {
     case MPS_PROBE_GAUGE:
         return "m";
     case MPS_PROBE_FORCE:
-        if (is_moment(job, probe, component)) return job->dim == 3 ? "N m" : "N m/m";
-        return job->dim == 3 ? "N" : "N/m";
+        if (is_moment(dim, probe, component)) return dim == 3 ? "N m" : "N m/m";
+        return dim == 3 ? "N" : "N/m";
     default:
         return "Pa";
     }
@@ -120,7 +120,7 @@ static const char *unit_of(const mps_job *job, const mps_probe *probe, int32_t c
 
 static void about_force(const mps_job *job, job_column *c, const mps_probe *probe)
 {
-    const bool moment = is_moment(job, probe, c->component);
+    const bool moment = is_moment(job->dim, probe, c->component);
     const int axis = moment ? job->dim == 3 ? c->component - 3 : 2 : c->component;
     c->type = moment ? "moment" : "force";
     about_add(c,
@@ -184,7 +184,7 @@ mps_status mps_job_probe_add(mps_job *job, mps_sim *sim, const mps_probe *probe,
     int32_t id;
     if (!job || !sim || !probe) return MPS_E_ARG;
     mps_sim_shape(sim, &job->dim, &job->dp);
-    if (!unit) unit = unit_of(job, probe, component);
+    if (!unit) unit = mps__job_probe_unit(job->dim, probe, component);
     mps_status status = check_column(job, name, unit, "");
     if (status != MPS_OK) return status;
     status = add_probe(job, sim, probe, name, &id);

@@ -46,13 +46,21 @@ int mps__job_columns(const mps_job *job)
     return job->columns + COLUMN_COMMON;
 }
 
+bool mps__job_common(int k, int32_t dim, job_column *out)
+{
+    if (k < 0 || k >= COLUMN_COMMON) return false;
+    *out = COMMON[k];
+    if (strcmp(out->unit, "J") == 0 && dim != 3) memcpy(out->unit, "J/m", sizeof "J/m");
+    out->type = "value";
+    out->probe = -1;
+    return true;
+}
+
 job_column mps__job_column(const mps_job *job, int k)
 {
+    job_column c = {.probe = -1};
     if (k < job->columns) return job->column[k];
-    job_column c = COMMON[k - job->columns];
-    if (strcmp(c.unit, "J") == 0 && job->dim != 3) memcpy(c.unit, "J/m", sizeof "J/m");
-    c.type = "value";
-    c.probe = -1;
+    mps__job_common(k - job->columns, job->dim, &c);
     return c;
 }
 

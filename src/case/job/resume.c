@@ -6,7 +6,6 @@
 #include "escape.h"
 #include "regular.h"
 #include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -55,7 +54,7 @@ static double number_of(const mps_job *job, const char *key, bool *done)
     if (done) *done = false;
     snprintf(path, sizeof path, "%s/summary.json", job->place.path);
     const char *why;
-    FILE *in = mps__regular_stream(path, O_RDONLY, &why);
+    FILE *in = mps__regular_summary(path, &why);
     while (in && fgets(line, sizeof line, in)) {
         if (done && strstr(line, "\"status\": \"ok\"")) *done = true;
         if (strncmp(line, wanted, length) == 0) value = strtod(line + length, NULL);

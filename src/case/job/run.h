@@ -182,12 +182,19 @@ bool mps__job_agree(mps_job *job);
 bool mps__job_collect(const mps_job *job);
 void mps__job_collect_end(const mps_job *job);
 
+/* ---- added.c ---- */
+
+/* Unit of a component of a probe. */
+const char *mps__job_probe_unit(int32_t dim, const mps_probe *probe, int32_t component);
+
 /* ---- columns.c ---- */
 
 /* Number of columns of probes.csv after the time, and column k: added columns first, then the
  * common ones. */
 int mps__job_columns(const mps_job *job);
 job_column mps__job_column(const mps_job *job, int k);
+/* Common column k, from 0; false: there are no more. */
+bool mps__job_common(int k, int32_t dim, job_column *out);
 /* Whether one of the common columns, or the time, has this name. */
 bool mps__job_is_common(const char *name);
 /* Measure the bounding boxes of walls and liquid, and the pose of the tank, before the first step

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+enum { NUMBER_SIZE = 32 }; /* characters of a number and its comma */
+
 static void table_fail(table *t)
 {
     if (!t->failed) t->error = errno;
@@ -89,14 +91,21 @@ static bool table_parse(const char *line, int columns, double *row)
     return *line == '\0';
 }
 
+/* Read a line of less than `size` bytes. A file of another length has no more memory than that.
+ * @return false: there is none, or it is longer or incomplete */
+static bool next_line(table *t, char *line, size_t size)
+{
+    return fgets(line, (int)size, t->file) && strchr(line, '\n');
+}
+
 /* Read rows while they are complete and not later than `time`; t->end is the offset after the last
  * of them. */
 static bool table_read(table *t, double time)
 {
-    char *line = NULL;
-    size_t size = 0;
-    bool good = true;
-    while (good && getline(&line, &size, t->file) > 0 && table_parse(line, t->columns, t->row)) {
+    const size_t size = (size_t)t->columns * NUMBER_SIZE + 2;
+    char *line = malloc(size);
+    bool good = line != NULL;
+    while (good && next_line(t, line, size) && table_parse(line, t->columns, t->row)) {
         if (t->row[0] > time + 1e-9 * t->interval) break;
         good = t->interval == 0 || t->row[0] == table_time(t);
         if (!good) break;
@@ -110,10 +119,9 @@ static bool table_read(table *t, double time)
 
 static bool table_same_header(table *t, const char *header)
 {
-    char *line = NULL;
-    size_t size = 0, length = strlen(header);
-    bool same = getline(&line, &size, t->file) > 0 && strncmp(line, header, length) == 0 &&
-                strcmp(line + length, "\n") == 0;
+    const size_t length = strlen(header);
+    char *line = malloc(length + 2);
+    const bool same = line && next_line(t, line, length + 2) && strncmp(line, header, length) == 0;
     free(line);
     t->end = ftell(t->file);
     return same;

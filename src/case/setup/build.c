@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TIMES_MOST = 24 };
+enum { TIMES_MOST = 24, PAGE_LEAST = 500000 /* bytes, of mps_page_write() */ };
 
 /* A part of the case has failed. Read the parts that do not depend on it too, so that their errors
  * are reported in the same run. If the first period is not known, it is taken as 1 s, which no
@@ -55,6 +55,17 @@ static void warn_amplitudes(build *b)
 }
 
 /* All steps before the job: its end may be in units of T1, which the filled liquid determines. */
+/* A page has a least size. */
+static void check_page(build *b)
+{
+    const tree_node *node = mps__tree_find(mps__tree_find(b->root, "output"), "page");
+    const double page = mps__read_number(b->c, node ? node->parent : NULL, "page", 0);
+    if (page > 0 && page < PAGE_LEAST)
+        mps__case_log(b->c, node, false,
+                      "output.page: %g kB is too small, must be 500 kB or more, or 0: no page",
+                      page / 1e3);
+}
+
 void mps__build_simulation(build *b, const mps_job_config *options)
 {
     static void (*const part[])(build *) = {mps__build_tank,  mps__build_solids, mps__build_phases,
@@ -74,6 +85,7 @@ void mps__build_simulation(build *b, const mps_job_config *options)
             b->c, plugins, false,
             "plugins: they were not loaded when the case was read; mps_case_open() has an "
             "option for it");
+    check_page(b);
     if (!mps__case_failed(b->c)) mps__build_fluids_read(b);
     if (!mps__case_failed(b->c)) mps__build_open(b, options);
     size_t i = 0, count = sizeof part / sizeof *part;

@@ -103,6 +103,12 @@ typedef struct build_log {
     char text[BUILD_NOTES][2 * BUILD_TEXT];
 } build_log;
 
+/* A column of probes.csv, in the memory of the case; also of a case that is only checked. */
+typedef struct build_column {
+    char name[BUILD_NAME], unit[16];
+    struct build_column *next;
+} build_column;
+
 typedef struct build {
     mps_case *c;
     const tree_node *root;
@@ -115,6 +121,7 @@ typedef struct build {
     bool several, paper; /* several phases; the models as published in the papers */
     int32_t fluids, solids, sensors;
     int32_t unlisted;                /* columns that exceed `sensor` */
+    build_column *column;            /* the last one first */
     build_fluid fluid[BUILD_FLUIDS]; /* by phase: in order of falling density */
     build_tank tank;
     build_solid solid[BUILD_SOLIDS];
@@ -171,6 +178,8 @@ void mps__build_body(build *b);
 /* Add columns of the motion, prescribed or of the body, and of what drives the body. */
 void mps__motion_columns(build *b);
 void mps__body_columns(build *b);
+/* Record a column that the job has, or that a case which is only checked would have. */
+void mps__build_column(build *b, const char *name, const char *unit);
 void mps__build_time(build *b);
 /* Warn of a motion that begins with a jump or a tilt, once steps are known. */
 void mps__motion_start(build *b);

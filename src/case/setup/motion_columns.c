@@ -26,10 +26,12 @@ void mps__motion_columns(build *b)
 {
     const bool body = b->body != NULL;
     const tree_node *map = mps__tree_find(b->root, body ? "body" : "motion");
-    for (int32_t d = 0; b->job && b->motion && b->status >= 0 && d < MOTION_DEGREES; d++) {
+    for (int32_t d = 0; b->motion && b->status >= 0 && d < MOTION_DEGREES; d++) {
         const bool turn = d >= MPS_SHIP_ROLL;
         char about[BUILD_TEXT];
         if (!b->motion->used[d]) continue;
+        mps__build_column(b, mps__degrees[d], turn ? "deg" : "m");
+        if (!b->job) continue;
         motion_column *k = mps__build_alloc(b, sizeof *k);
         if (!k) return;
         *k = (motion_column){b->motion, d};

@@ -3,38 +3,56 @@
 #include "build.h"
 #include "case_csv.h"
 #include "body.h"
+#include "run.h"
 #include "units.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* ---- columns ---- */
+
+void mps__build_column(build *b, const char *name, const char *unit)
+{
+    build_column *c = mps__build_alloc(b, sizeof *c);
+    if (!c) return;
+    *c = (build_column){.next = b->column};
+    snprintf(c->name, sizeof c->name, "%s", name);
+    snprintf(c->unit, sizeof c->unit, "%s", unit);
+    b->column = c;
+}
+
+/* Columns that each job has. */
+static void add_common(build *b)
+{
+    job_column c;
+    for (int k = 0; mps__job_common(k, b->dim, &c); k++) mps__build_column(b, c.name, c.unit);
+}
+
+static const build_column *find_column(const build *b, const char *name)
+{
+    const build_column *c = b->column;
+    while (c && strcmp(c->name, name) != 0) c = c->next;
+    return c;
+}
+
+/* Kinds of values that a column may be compared with; a share is a number. */
+static uint64_t kinds_of(const char *unit)
+{
+    if (!unit[0]) return UNIT_NONE | UNIT_SHARE;
+    const mps__unit *u = mps__case_csv_unit(unit);
+    return u ? u->kinds : 0;
+}
+
 /* ---- references ---- */
 
 typedef struct series {
+    const build_column *column; /* NULL: all columns of the unit */
     int64_t count;
     double *t, *value; /* in the memory of the case */
-    char unit[BUILD_NAME];
+    uint64_t kinds;    /* of the values, which are in SI */
+    const char *unit;
 } series;
-
-/* The SI unit of a value as in columns of probes.csv. */
-static void unit_of(uint64_t kinds, int32_t dim, char *out, size_t size)
-{
-    static const struct {
-        uint64_t kind;
-        const char *name[2];
-    } names[] = {{UNIT_PRESSURE, {"Pa", "Pa"}},    {UNIT_LENGTH, {"m", "m"}},
-                 {UNIT_VELOCITY, {"m/s", "m/s"}},  {UNIT_FORCE, {"N", "N"}},
-                 {UNIT_STIFFNESS, {"N/m", "N/m"}}, {UNIT_MOMENT, {"N m", "N m"}},
-                 {UNIT_ANGLE, {"deg", "deg"}},     {UNIT_VOLUME, {"m3", "m3"}},
-                 {UNIT_AREA, {"m2", "m2"}}};
-    out[0] = '\0';
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
-        if (kinds & names[i].kind) {
-            snprintf(out, size, "%s", names[i].name[dim - 2]);
-            return;
-        }
-}
 
 /* Times that decrease belong to another column, or to several concatenated tables.
  * @param t  NULL: they are in the case */
@@ -54,7 +72,6 @@ static bool check_times(build *b, const tree_node *node, const mps__csv *t, cons
 
 static bool read_inline(build *b, const tree_node *map, series *s)
 {
-    uint64_t kinds = 0;
     double *buffer = mps__build_alloc(b, 2 * COUNT_MOST * sizeof *buffer);
     if (!buffer) return false;
     s->t = buffer;
@@ -68,10 +85,7 @@ static bool read_inline(build *b, const tree_node *map, series *s)
                       (int)values);
         return false;
     }
-    mps__node_numbers(b->c, node, COUNT_MOST, s->value, &kinds);
-    unit_of(kinds, b->dim, s->unit, sizeof s->unit);
-    for (int64_t i = 0; i < s->count && strcmp(s->unit, "deg") == 0; i++)
-        s->value[i] *= 180 / acos(-1.0);
+    mps__node_numbers(b->c, node, COUNT_MOST, s->value, &s->kinds);
     return check_times(b, mps__tree_find(map, "times"), NULL, s);
 }
 
@@ -102,18 +116,19 @@ static bool read_table(build *b, const tree_node *map, series *s)
                 read_columns(b, map, &t, column);
     const double times = good ? mps__case_csv_factor(b->c, node, &t, column[0], UNIT_TIME, NULL)
                               : NAN;
-    const double factor = good ? mps__case_csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit)
-                               : NAN;
+    const char *text = good && !(unit && unit[0]) ? t.unit[column[1]] : unit;
+    const bool plain = good && !text[0] && s->column && !s->column->unit[0];
+    const double factor = plain  ? 1
+                          : good ? mps__case_csv_factor(b->c, node, &t, column[1], UNIT_ANY, unit)
+                                 : NAN;
     good = !isnan(times) && !isnan(factor) && mps__case_csv_read(b->c, node, &t);
     if (good) {
-        const char *text = unit && unit[0] ? unit : t.unit[column[1]];
-        unit_of(mps__case_csv_unit(text)->kinds, b->dim, s->unit, sizeof s->unit);
-        const double degrees = strcmp(s->unit, "deg") == 0 ? 180 / acos(-1.0) : 1;
+        s->kinds = plain ? UNIT_NONE : mps__case_csv_unit(text)->kinds;
         s->t = mps__build_alloc(b, (size_t)t.rows * sizeof *s->t);
         s->value = mps__build_alloc(b, (size_t)t.rows * sizeof *s->value);
         for (int64_t i = 0; s->t && s->value && i < t.rows; i++) {
             s->t[i] = t.value[column[0]][i] * times;
-            s->value[i] = t.value[column[1]][i] * factor * degrees;
+            s->value[i] = t.value[column[1]][i] * factor;
         }
         s->count = s->t && s->value ? t.rows : 0;
         good = s->count > 0 && check_times(b, node, &t, s);
@@ -122,29 +137,63 @@ static bool read_table(build *b, const tree_node *map, series *s)
     return good;
 }
 
-/* Refuse values whose unit is not of the kind of their sensor, a pressure or a level. */
-static void check_kind(build *b, const tree_node *map, const char *column, const char *unit)
+/* The column of a reference: `column`, or that of its name. @return false: there is a message */
+static bool choose_column(build *b, const tree_node *map, const char *name, series *s)
 {
-    static const struct {
-        const char *key, *unit;
-    } kinds[] = {{"wall", "Pa"}, {"panel", "Pa"}, {"pressure", "Pa"}, {"gauge", "m"}};
-    const tree_node *sensor = mps__tree_find(mps__tree_find(b->root, "sensors"), column);
-    for (size_t i = 0; sensor && i < sizeof kinds / sizeof *kinds; i++)
-        if (mps__tree_find(sensor, kinds[i].key) && strcmp(unit, kinds[i].unit) != 0)
-            mps__case_log(b->c, map, false,
-                          "the values have the unit '%s', sensor '%s' has '%s'; give another "
-                          "'column', or values in a unit of that kind",
-                          unit, column, kinds[i].unit);
+    const tree_node *node = mps__tree_find(map, "column");
+    const char *column = mps__read_text(b->c, map, "column", "");
+    const bool sensor = mps__tree_find(mps__tree_find(b->root, "sensors"), name) != NULL;
+    s->column = find_column(b, column[0] ? column : name);
+    /* sensors with errors have no columns */
+    if (s->column || (!column[0] && !sensor) || b->c->known_errors) return true;
+    char names[400] = "";
+    size_t used = 0;
+    for (const build_column *c = b->column; c && used + sizeof c->name < sizeof names; c = c->next)
+        if (sensor == !column[0] && (column[0] || strncmp(c->name, name, strlen(name)) == 0))
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "",
+                                     c->name);
+    mps__case_log(b->c, node ? node : map, false,
+                  "'%s' is no column of probes.csv; give a 'column': %s", column[0] ? column : name,
+                  names);
+    return false;
+}
+
+/* The unit of columns of these kinds: angles are in degrees. */
+static const char *unit_of(uint64_t kinds)
+{
+    return kinds == UNIT_ANGLE ? "deg" : mps__unit_si(kinds);
+}
+
+/* Convert the values to the unit of their column, or of the columns of their kind. Values that are
+ * all 0 have any unit. @return false: there is a message */
+static bool convert(build *b, const tree_node *map, series *s)
+{
+    const build_column *c = s->column ? s->column : b->column;
+    while (!s->column && c && !(kinds_of(c->unit) & s->kinds)) c = c->next;
+    s->unit = c ? c->unit : unit_of(s->kinds);
+    if (c && !(kinds_of(c->unit) & s->kinds)) {
+        const char *given = unit_of(s->kinds);
+        mps__case_log(b->c, map, false,
+                      "the values have %s%s%s, column '%s' has %s%s%s; give another 'column', or "
+                      "values in a unit of that kind",
+                      given[0] ? "the unit '" : "no unit", given, given[0] ? "'" : "", c->name,
+                      c->unit[0] ? "'" : "none", c->unit, c->unit[0] ? "'" : "");
+        return false;
+    }
+    const mps__unit *u = s->unit[0] ? mps__case_csv_unit(s->unit) : NULL;
+    for (int64_t i = 0; u && i < s->count; i++) s->value[i] /= mps__unit_value(u);
+    return true;
 }
 
 static void add_reference(build *b, const tree_node *map, const char *name)
 {
     series s = {0};
     const bool file = mps__tree_find(map, "file") != NULL;
+    if (!choose_column(b, map, name, &s)) return;
     if (file ? !read_table(b, map, &s) : !read_inline(b, map, &s)) return;
     const double shift = mps__read_number(b->c, map, "shift", 0);
     for (int64_t i = 0; i < s.count; i++) s.t[i] += shift;
-    const char *column = mps__read_text(b->c, map, "column", "");
+    if (!convert(b, map, &s)) return;
     mps_reference r;
     mps_reference_init(&r, sizeof r);
     r.line = mps__read_choice(b->c, map, "style", 0);
@@ -153,9 +202,7 @@ static void add_reference(build *b, const tree_node *map, const char *name)
     r.count = s.count;
     r.t = s.t;
     r.value = s.value;
-    if (!column[0] && mps__tree_find(mps__tree_find(b->root, "sensors"), name)) column = name;
-    r.column = column[0] ? column : NULL;
-    if (r.column) check_kind(b, map, r.column, s.unit);
+    r.column = s.column ? s.column->name : NULL;
     if (mps__case_failed(b->c) || !b->job || b->c->known_errors) return;
     mps__build_try_job(b, mps_job_reference_add(b->job, &r), map, name);
 }
@@ -184,6 +231,7 @@ void mps__build_references(build *b)
     const tree_node *map = mps__tree_find(b->root, "reference"),
                     *figures = mps__tree_find(b->root, "figures");
     if (b->status < 0) return;
+    add_common(b);
     for (const tree_node *at = map ? map->first : NULL; at; at = at->next) {
         const tree_node *one = at->kind == TREE_LIST ? at->first : at;
         for (; one; one = one == at ? NULL : one->next) add_reference(b, one, at->key);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 /* Sensors: columns of probes.csv, in the order of the case. */
+#include "run.h"
 #include "sensor_load.h"
 #include <math.h>
 #include <stdio.h>
@@ -68,6 +69,7 @@ bool mps__sensor_add(const sensing *s, mps_probe *probe, int32_t component, doub
     if (b->job ? !mps__build_try_job(b, status, s->map, what)
                : !mps__build_try(b, status, s->map, what))
         return false;
+    mps__build_column(b, name, mps__job_probe_unit(b->dim, probe, component));
     if (s->between && b->unlisted == 0)
         b->sensor[b->sensors - 1].further++;
     else
@@ -81,6 +83,7 @@ bool mps__sensor_value(const sensing *s, const char *name, const char *unit, con
     build *b = s->b;
     build_sensor *noted = note(b, name, SENSOR_VALUE);
     if (noted) snprintf(noted->about, sizeof noted->about, "%s", about);
+    mps__build_column(b, name, unit);
     if (!b->job) return true;
     const mps_status status = mps_job_value_add(b->job, name, unit, about, MPS_JOB_PRESSURE, value,
                                                 user);
@@ -247,6 +250,16 @@ static void add_gauge(const sensing *s)
     if (!mps__case_failed(b->c)) mps__sensor_add(s, &probe, 0, level - probe.at[1], s->map->key);
 }
 
+/* Record the column of a measure. */
+static void note_measure(build *b, const mps_measure *m)
+{
+    mps_measure_info info;
+    mps_measure_info_init(&info, sizeof info);
+    for (int32_t k = 0; !m->at_end && mps_measure_info_get(k, &info) == MPS_OK; k++)
+        if (strcmp(info.name, m->measure) == 0)
+            mps__build_column(b, m->name, b->dim == 3 ? info.unit_3d : info.unit);
+}
+
 /* Names of measures have '_' instead of blanks. */
 static void add_measure(const sensing *s)
 {
@@ -277,6 +290,7 @@ static void add_measure(const sensing *s)
     mps__sensor_box(b, name, given != NULL, box, m.box);
     if (mps__case_failed(b->c)) return;
     note(b, s->map->key, SENSOR_MEASURE);
+    note_measure(b, &m);
     if (b->job) mps__build_try_job(b, mps_job_measure_add(b->job, b->sim, &m), s->map, s->map->key);
 }
 

@@ -179,8 +179,9 @@ static size_t unit_length(const char *at)
 static bool convert(mps__numbers *n, const char *at, int32_t first, int32_t last,
                     const mps__unit *u)
 {
-    /* where a length is not allowed, 40 % is 0.4 */
-    const bool is_share = u && u->scale == SCALE_WHOLE && !(n->kinds & UNIT_LENGTH);
+    /* where a length is not allowed, or any unit is, 40 % is 0.4 */
+    const bool is_share = u && u->scale == SCALE_WHOLE &&
+                          (n->kinds == UNIT_ANY || !(n->kinds & UNIT_LENGTH));
     for (int32_t k = first; k < last; k++) {
         number_text text;
         at += strspn(at, " \n\t\r");

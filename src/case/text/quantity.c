@@ -6,17 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The SI unit of these kinds, "" if there is none. */
-static const char *si_unit(uint64_t kinds)
-{
-    const mps__unit *u;
-    for (int32_t k = 0; (u = mps__unit_get(k)) != NULL; k++)
-        if ((u->kinds & kinds) && u->scale == SCALE_NONE && u->tens == 0 && u->times == 1 &&
-            u->over == 1)
-            return u->name;
-    return "";
-}
-
 mps_status mps_case_quantity(const char *text, double dp, double T1, double *value, char *unit,
                              size_t size)
 {
@@ -25,7 +14,7 @@ mps_status mps_case_quantity(const char *text, double dp, double T1, double *val
         .text = text, .kinds = UNIT_ANY, .scale = {1, dp, T1, 1}, .most = 1, .out = &number};
     if (!text || !value || !unit || size == 0) return MPS_E_ARG;
     if (!mps__numbers_read(&n) || n.count != 1) return MPS_E_ARG;
-    const char *found = n.found == UNIT_ANY ? "" : si_unit(n.found);
+    const char *found = n.found == UNIT_ANY ? "" : mps__unit_si(n.found);
     if (strlen(found) >= size) return MPS_E_ARG;
     snprintf(unit, size, "%s", found);
     *value = number;

@@ -42,6 +42,10 @@ static const mps__unit units[] = {
     {"kg m2", UNIT_INERTIA, 0, 1, 1, SCALE_NONE}, {"t m2", UNIT_INERTIA, 3, 1, 1, SCALE_NONE},
     {"N", UNIT_FORCE, 0, 1, 1, SCALE_NONE}, {"kN", UNIT_FORCE, 3, 1, 1, SCALE_NONE}, {"MN", UNIT_FORCE, 6, 1, 1, SCALE_NONE},
     {"N m", UNIT_MOMENT, 0, 1, 1, SCALE_NONE}, {"kN m", UNIT_MOMENT, 3, 1, 1, SCALE_NONE}, {"MN m", UNIT_MOMENT, 6, 1, 1, SCALE_NONE},
+    {"N m/m", UNIT_LINE_MOMENT, 0, 1, 1, SCALE_NONE}, {"kN m/m", UNIT_LINE_MOMENT, 3, 1, 1, SCALE_NONE},
+    {"MN m/m", UNIT_LINE_MOMENT, 6, 1, 1, SCALE_NONE},
+    {"J", UNIT_ENERGY, 0, 1, 1, SCALE_NONE}, {"kJ", UNIT_ENERGY, 3, 1, 1, SCALE_NONE}, {"mJ", UNIT_ENERGY, -3, 1, 1, SCALE_NONE},
+    {"J/m", UNIT_LINE_ENERGY, 0, 1, 1, SCALE_NONE}, {"kJ/m", UNIT_LINE_ENERGY, 3, 1, 1, SCALE_NONE}, {"mJ/m", UNIT_LINE_ENERGY, -3, 1, 1, SCALE_NONE},
     {"m2", UNIT_AREA, 0, 1, 1, SCALE_NONE}, {"m3", UNIT_VOLUME, 0, 1, 1, SCALE_NONE}, {"l", UNIT_VOLUME, -3, 1, 1, SCALE_NONE},
     {"%", UNIT_SHARE, -2, 1, 1, SCALE_WHOLE},
     {"MB", UNIT_BYTES, 6, 1, 1, SCALE_NONE}, {"kB", UNIT_BYTES, 3, 1, 1, SCALE_NONE}, {"GB", UNIT_BYTES, 9, 1, 1, SCALE_NONE},
@@ -51,7 +55,7 @@ static const char *const kind_names[UNIT_KINDS] = {
     "a number", "a length", "a time", "an angle", "an angular velocity", "a frequency", "a velocity", "an acceleration", "a density",
     "a dynamic viscosity", "a kinematic viscosity", "a surface tension", "a pressure", "a mass", "an inertia", "a stiffness", "a force",
     "a moment", "a share", "a number of bytes", "an angular acceleration", "a volume", "an area",
-    "a damping", "a stiffness of a turn", "a damping of a turn"};
+    "a damping", "a stiffness of a turn", "a damping of a turn", "a moment per length", "an energy", "an energy per length"};
 /* clang-format on */
 
 enum { UNITS = sizeof units / sizeof units[0] };
@@ -68,6 +72,15 @@ double mps_unit_factor(const char *from, const char *to)
 const mps__unit *mps__unit_get(int32_t index)
 {
     return index >= 0 && index < UNITS ? &units[index] : NULL;
+}
+
+const char *mps__unit_si(uint64_t kinds)
+{
+    for (int k = 0; k < UNITS; k++) {
+        const mps__unit *u = &units[k];
+        if ((u->kinds & kinds) && u->scale == SCALE_NONE && mps__unit_value(u) == 1) return u->name;
+    }
+    return "";
 }
 
 /* Whether the name is that of the unit; "m/s^2" equals "m/s2", and several blanks equal one. */

@@ -36,9 +36,13 @@
 /* rotational */
 #define UNIT_TURN_STIFFNESS (UINT64_C(1) << 24)
 #define UNIT_TURN_DAMPING   (UINT64_C(1) << 25)
-#define UNIT_KINDS          26
-#define UNIT_VISCOSITY      (UNIT_DYNAMIC | UNIT_KINEMATIC)
-#define UNIT_ANY            ((UINT64_C(1) << UNIT_KINDS) - 1)
+/* per metre of length in 2-D */
+#define UNIT_LINE_MOMENT (UINT64_C(1) << 26)
+#define UNIT_ENERGY      (UINT64_C(1) << 27)
+#define UNIT_LINE_ENERGY (UINT64_C(1) << 28)
+#define UNIT_KINDS       29
+#define UNIT_VISCOSITY   (UNIT_DYNAMIC | UNIT_KINEMATIC)
+#define UNIT_ANY         ((UINT64_C(1) << UNIT_KINDS) - 1)
 
 /* What a unit is relative to. */
 typedef enum unit_scale { SCALE_NONE, SCALE_DP, SCALE_T1, SCALE_WHOLE } unit_scale;
@@ -78,6 +82,8 @@ bool mps__numbers_split(const char *text, int32_t index, char *buffer, size_t si
 const mps__unit *mps__unit_find(const char *name, size_t length);
 /* The SI value of this unit; of dp and T1: 1. */
 double mps__unit_value(const mps__unit *unit);
+/* The SI unit of these kinds, "" if there is none. */
+const char *mps__unit_si(uint64_t kinds);
 /* Unit number `index`, NULL after the last. */
 const mps__unit *mps__unit_get(int32_t index);
 /* "a length", "a time or a number" ... */
