@@ -160,15 +160,17 @@ static bool read_first(const head *h, mps__csv *t, bool numbers)
 }
 
 /* Describe a table: names of the columns, rows, first and last value of the first column. */
-static bool describe_table(const head *h)
+static bool describe_table(head *h)
 {
     mps__csv t;
     const char *separator = strpbrk(h->text, "\t;,\n");
     if (!is_text(h)) return false;
+    const bool separated = separator && *separator != '\n';
     bool good = read_first(h, &t, true);
-    if (!good && separator && *separator != '\n') {
+    if (!good && separated) {
         mps__csv_free(&t);
         good = read_first(h, &t, false);
+        snprintf(h->why, sizeof h->why, "%s", t.why);
     }
     if (good) {
         printf("table\n");
@@ -190,12 +192,14 @@ static int describe(head *h)
 {
     static bool (*const kinds[])(const head *) = {
         describe_checkpoint, describe_frame,   describe_series, describe_page,
-        describe_case,       describe_summary, info_surface,    describe_table};
+        describe_case,       describe_summary, info_surface};
     h->count = fread(h->text, 1, HEAD, h->file);
     h->text[h->count] = '\0';
     for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++)
         if (kinds[i](h)) return MPS_EXIT_OK;
-    fprintf(stderr, "mps info: %s: is no file of mps\n", h->path);
+    if (describe_table(h)) return MPS_EXIT_OK;
+    fprintf(stderr, "mps info: %s: is no file of mps%s%s\n", h->path,
+            h->why[0] ? "; as a table: " : "", h->why);
     return MPS_EXIT_USAGE;
 }
 

@@ -16,6 +16,7 @@ typedef struct head {
     long long size;
     size_t count;
     char text[HEAD + 1];
+    char why[400]; /* why it is no table, although its first line has a separator */
 } head;
 
 /* Whether the beginning is text: no byte that only binary files have. */

@@ -121,7 +121,7 @@ rm -r done/statistics.csv
 cp -r done vast
 truncate -s 1T vast/summary.json vast/probes.csv
 expect 2 "mps collect: vast: none of 1 runs is done" timeout 60 "$program" collect vast
-expect 0 " rows, first column 0 .. " timeout 60 "$program" info vast/probes.csv
+expect 2 ": a line of more than 16777216 bytes" timeout 60 "$program" info vast/probes.csv
 ([ "$slow" = 1 ] || ulimit -v 4000000; timeout 60 "$program" resume vast -q --set run.until="0.03 s" > log 2>&1)
 [ $? -le 2 ] || fail "resume with rows of any size: $(tail -2 log)"
 rm -r vast
@@ -186,7 +186,7 @@ printf 'solid words, no surface' > words
 expect 2 "is no file of mps" "$program" info words
 printf 'a\001,b\n1,2\n' > control
 expect 2 "is no file of mps" "$program" info control
-printf 'a\t,b\r\n1,2\n' > windows.csv
+printf 'a,b\r\n1,2\n' > windows.csv
 expect 0 "1 rows, first column 1 .. 1" "$program" info windows.csv
 for separator in '\t' ';' , ' '; do # as motion tables
     printf "time$separator\"roll, of it [deg]\"$separator\"P [Pa]\"\n0${separator}1${separator}2\n.5${separator}2${separator}3\n" > other.txt
