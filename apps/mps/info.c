@@ -166,7 +166,7 @@ static bool describe_table(head *h)
     const char *separator = strpbrk(h->text, "\t;,\n");
     if (!is_text(h)) return false;
     const bool separated = separator && *separator != '\n';
-    bool good = read_first(h, &t, true);
+    bool good = read_first(h, &t, true) && (separated || t.rows > 0);
     if (!good && separated) {
         mps__csv_free(&t);
         good = read_first(h, &t, false);

@@ -246,6 +246,12 @@ static void shallow(void **state)
     tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 60 mm}}]\n"
           "run: {until: 1 s}\n",
           NULL, "spacings deep");
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m, chamfer: {bottom: 0.04 m}}\n"
+          "fill: [{water: {depth: 100 mm}}]\n" END,
+          "about 5 rows of particles: the pressures' level is off by up to half a spacing, 10 % at",
+          NULL);
+    tells("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\nfill: [{water: {depth: 100 mm}}]\n" END, NULL,
+          "rows of particles");
 }
 
 /* The period of frames, and the error of a static pressure below gas: half a spacing of 20 mm. */

@@ -363,8 +363,9 @@ def invariants(case, folder, told):
     coarse = "warning" in told or draw["outline"] in ("cylinder", "sphere")  # it settles in more steps
     if draw["motion"] == "rest" and draw["model"] in ("imps", "walls", "pocket") and not coarse:
         vertical = column["F_y"]
-        weight = float(re.search(r"all fluid, ([0-9.e+-]+) kg", told).group(1)) * GRAVITY
-        off = re.search(r"half a spacing, ([0-9.e+-]+) % at the bottom", told)  # a row that is not whole
+        volume = float(re.search(r"fill of phase 0: \S+ m[23] of (\S+) m[23] requested", told).group(1))
+        weight = DENSITY * volume * GRAVITY
+        off = re.search(r"half a spacing, ([0-9.e+-]+) % at the bottom", told)  # few rows, or one that is not whole
         if abs(-vertical[-1] / weight - 1) > max(REST, float(off.group(1)) / 100 if off else 0):
             raise Failure(f"force {vertical[-1]:.5g} N, weight {weight:.5g} N")
 
