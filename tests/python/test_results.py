@@ -97,6 +97,19 @@ class Results(unittest.TestCase):
         with self.assertRaisesRegex(mps.UnknownName, "no array 'p'; there are position, velocity"):
             last["p"]
 
+    def test_peaks(self) -> None:
+        """The pressure that rises as the tank begins to move, without the jerk of its start."""
+        run = mps.Case(TANK, set={"output.peaks": 1, "run.until": "0.5 s"}).run(self.folder / "peaks", say=None)
+        names = sorted(p.name for p in (self.folder / "peaks" / "peaks").glob("*.vtp"))
+        self.assertGreater(len(names), 0)
+        self.assertEqual(sorted(frame.path.name for frame in run.peaks), names)
+        late = run.columns["t"] > 0.05
+        highest = run.columns["t"][late][run.columns["P1"][late].argmax()]
+        self.assertLess(np.abs(run.peaks.t - highest).min(), 0.01)
+        self.assertTrue((np.diff(run.peaks.t) > 0).all())
+        self.assertNotIn(run.peaks[0].path, [frame.path for frame in run.frames])
+        self.assertEqual(len(mps.Run(self.folder / "a").peaks[0:0]), 0)
+
     def test_frames_are_the_state(self) -> None:
         """All particles of the library, and those of pieces, which ranks write."""
         with mps.Simulation(dp=0.1, dim=3) as sim:

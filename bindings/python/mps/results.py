@@ -115,17 +115,17 @@ class Table(Mapping[str, np.ndarray]):
 class FrameSeries(Sequence[Frame]):
     """Frames of a run in the order of time; each is read when it is used. run.frames[-1], run.frames.at(2.5), len(run.frames)."""
 
-    def __init__(self, folder: Path) -> None:
-        self._folder = folder
+    def __init__(self, folder: Path, name: str = "frames.pvd") -> None:
+        self._folder, self._name = folder, name
 
     @cached_property
     def _series(self) -> list[tuple[float, Path]]:
-        path = self._folder / "frames.pvd"
+        path = self._folder / self._name
         if not path.exists():
             return []
         found = re.findall(r'<DataSet timestep="([^"]*)"[^>]* file="([^"]*)"', read_text(path))
         try:
-            return [(float(t), self._folder / file) for t, file in found]
+            return sorted((float(t), self._folder / file) for t, file in found)
         except ValueError as e:
             raise errors.error(N.MPS_E_IO, f"{path}: {e}") from None
 
@@ -203,7 +203,7 @@ class Run:
 
         run = mps.Run("out")
         t, p = run.columns["t"], run.columns["P1"]   # arrays in SI units; run.columns.units["P1"]
-        run.frames.at(2.5)["position"]               # [n, 3] m
+        run.frames.at(2.5)["position"]               # [n, 3] m; run.peaks: those at peaks
         run.impacts("P1"), run.summary["steps"], run.case"""
 
     def __init__(self, folder: str | Path, messages: Sequence[str] = ()) -> None:
@@ -277,6 +277,11 @@ class Run:
     def frames(self) -> FrameSeries:
         """Frames of particles."""
         return FrameSeries(self.folder)
+
+    @property
+    def peaks(self) -> FrameSeries:
+        """Frames at the highest peaks of each pressure, as output.peaks of the case sets them."""
+        return FrameSeries(self.folder, "peaks.pvd")
 
     def impacts(self, column: str, **settings: Any) -> Impacts:
         """Impacts in a pressure, with the constants of the run; settings change them: threshold="6 kPa" as in a case, threshold=6e3 as in
