@@ -46,7 +46,7 @@ quoted() {
     fail "$2: not in cases: $(head -3 "$1")"
 }
 
-# A body with a load of its own, in place of that of the case of its page.
+# A body with a load of its own, instead of that of the case of its page.
 fitted() {
     awk '/^[a-z]/ {skip = /^body:/} !skip' anti_roll_tank.yaml | cat - "$1" > "whole_$1"
     printf 't[s],M[kN m]\n0,0\n100,5\n' > push.csv
