@@ -117,6 +117,18 @@ expect 1 "cannot write 'statistics.csv' in 'done': File exists" "$program" stats
 [ -s done/statistics.json ] || fail "no statistics.json"
 rm -r done/statistics.csv
 
+# ---- particles that the domain cuts: counted at the start, and as lost
+expect 0 "" "$program" run small.yaml -q -o cut --set "domain=[0 0 m, 0.25 1 m]"
+all=$(sed -n 's/.*"n_fluid": \([0-9]*\).*/\1/p' done/summary.json) lost=$(sed -n 's/.*"particles_lost": \([0-9]*\).*/\1/p' cut/summary.json)
+[ "$(sed -n 's/.*"n_fluid": \([0-9]*\).*/\1/p' cut/summary.json)" = "$all" ] || fail "n_fluid of a cut tank: $(grep n_fluid cut/summary.json), $all"
+[ "$((lost * 4))" -gt "$all" ] && [ "$lost" -lt "$all" ] || fail "particles_lost of a cut tank: $lost of $all"
+
+# ---- a name of a file that is not UTF-8: the summary and the page are
+cp small.yaml $'name\377.yaml'
+expect 0 "" "$program" run $'name\377.yaml' -q -o named --set "output.page=1 MB"
+for file in summary.json report.html; do iconv -f UTF-8 -t UTF-8 "named/$file" > /dev/null || fail "$file of a file whose name is not UTF-8"; done
+grep -q '"case": "name' named/summary.json || fail "case of a file whose name is not UTF-8: $(grep '"case"' named/summary.json)"
+
 # ---- files of any size end, and take no memory of their size
 cp -r done vast
 truncate -s 1T vast/summary.json vast/probes.csv

@@ -136,6 +136,8 @@ static void what_is_refused(void **unused)
     assert_int_equal(mps_stats_wants(NULL, "P1") + mps_stats_wants(&before, NULL), 0);
     memset(before.sensors, 'x', sizeof before.sensors);
     assert_int_equal(mps_stats_config_read(s.folder, &before), MPS_E_ARG);
+    memcpy(before.sensors, "P1;", 3);
+    assert_int_equal(mps_stats_wants(&before, "P1"), 0); /* a text without end is not read */
     scene_remove(&s);
 }
 
