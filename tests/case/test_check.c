@@ -395,15 +395,69 @@ static void drawings(void **state)
     free(svg);
 }
 
+/* The largest distance between walls in a part of the drawing, from their middles, and where it
+ * ends [m]. A wall of 20 mm is drawn 10 mm to both sides, in cells of 10 mm. */
+static double gap_of(const char *svg, double x_lo, double x_hi, double y_lo, double y_hi,
+                     double *end)
+{
+    bool dark[60] = {false};
+    double most = 0, x, y, w, h, left = NAN, floor = NAN;
+    for (const char *at = svg; (at = strstr(at, "<rect x='")); at++) {
+        char colour[8];
+        if (sscanf(at, "<rect x='%lf' y='%lf' width='%lf' height='%lf' fill='%7[^']'", &x, &y, &w,
+                   &h, colour) != 5 ||
+            strcmp(colour, "#444") != 0)
+            continue;
+        if (isnan(left)) left = x, floor = y + h; /* the first one is the whole floor */
+        const double scale = 1.02 / 529.2, low = (floor - y - h) * scale - 0.01;
+        const double from = (x - left) * scale - 0.01, to = from + w * scale;
+        if (to < x_lo || from > x_hi || low < y_lo || low > y_hi) continue;
+        dark[lround((low - y_lo) / 0.01)] = true;
+    }
+    int32_t begin = 0, cells = (int32_t)((y_hi - y_lo) / 0.01);
+    for (int32_t k = 0; k < cells; k++) {
+        if (!dark[k]) continue;
+        if ((k - begin + 1) * 0.01 > most)
+            most = (k - begin + 1) * 0.01, *end = y_lo + (k + 1) * 0.01;
+        begin = k;
+    }
+    return most;
+}
+
+/* Slots and boxes are drawn as built, as the lines say it: slots at .08 .. .14 and .3 .. .36 m, a
+ * box from .113 to .287 m. */
+static void drawn_as_built(void **state)
+{
+    double end = 0;
+    (void)state;
+    char *svg = drawn("mps: 1\ndp: 20 mm\ntank: {size: 1 0.6 m}\n"
+                      "solids:\n  wall: {plate: [0.5 0 m, 0.5 0.45 m], holes: {pitch: 0.2 m, open: "
+                      "25 %}}\n  s: {box: [0.707 0.113 m, 0.853 0.287 m]}\n"
+                      "fill: [{water: {depth: 0.3 m}}]\n" END);
+    const double first = gap_of(svg, 0.49, 0.51, 0, 0.2, &end);
+    if (!(fabs(first - 0.06) < 0.015 && fabs(end - 0.14) < 0.015))
+        fail_msg("first slot: %g m to %g m", first, end);
+    const double second = gap_of(svg, 0.49, 0.51, 0.2, 0.45, &end);
+    if (!(fabs(second - 0.06) < 0.015 && fabs(end - 0.36) < 0.015))
+        fail_msg("second slot: %g m to %g m", second, end);
+    const double below = gap_of(svg, 0.75, 0.8, -0.01, 0.2, &end);
+    if (!(fabs(below - 0.113) < 0.015 && fabs(end - 0.113) < 0.015))
+        fail_msg("below the box: %g m to %g m", below, end);
+    free(svg);
+}
+
 int main(void)
 {
     struct CMUnitTest tests[] = {
-        cmocka_unit_test(volumes),  cmocka_unit_test(files),          cmocka_unit_test(plates),
-        cmocka_unit_test(as_built), cmocka_unit_test(sensors),        cmocka_unit_test(columns),
-        cmocka_unit_test(forces),   cmocka_unit_test(motions),        cmocka_unit_test(bare),
-        cmocka_unit_test(periods),  cmocka_unit_test(top_rows),       cmocka_unit_test(costs),
-        cmocka_unit_test(rates),    cmocka_unit_test(frames_and_gas), cmocka_unit_test(shallow),
-        cmocka_unit_test(drawings), cmocka_unit_test(uniform_motions)};
+        cmocka_unit_test(drawn_as_built), cmocka_unit_test(volumes),
+        cmocka_unit_test(files),          cmocka_unit_test(plates),
+        cmocka_unit_test(as_built),       cmocka_unit_test(sensors),
+        cmocka_unit_test(columns),        cmocka_unit_test(forces),
+        cmocka_unit_test(motions),        cmocka_unit_test(bare),
+        cmocka_unit_test(periods),        cmocka_unit_test(top_rows),
+        cmocka_unit_test(costs),          cmocka_unit_test(rates),
+        cmocka_unit_test(frames_and_gas), cmocka_unit_test(shallow),
+        cmocka_unit_test(drawings),       cmocka_unit_test(uniform_motions)};
     take_turns(tests, sizeof tests / sizeof tests[0], 3);
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
