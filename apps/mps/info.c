@@ -154,7 +154,7 @@ static bool describe_summary(const head *h)
  * @return false: it is no table */
 static bool read_first(const head *h, mps__csv *t, bool numbers)
 {
-    if (mps__csv_open(t, h->path, CSV_OWN) != CSV_OK || t->columns < 2) return false;
+    if (mps__csv_open(t, h->path, CSV_OWN | CSV_ROUND) != CSV_OK || t->columns < 2) return false;
     for (int32_t k = 0; k < t->columns; k++) t->wanted[k] = numbers && k == 0;
     return mps__csv_read(t) == CSV_OK;
 }

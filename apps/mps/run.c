@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { ERROR_SIZE = 1024, PATH_SIZE = 1024 };
 
@@ -77,6 +78,16 @@ int cli_run(const choices *c, const mps_job_config *begin, const char *folder, b
     return code;
 }
 
+/* Whether a folder has the runs of a sweep, repetition or convergence: a run in it would hide
+ * them. */
+static bool has_series(const char *folder)
+{
+    struct stat s;
+    char path[PATH_SIZE + 16];
+    snprintf(path, sizeof path, "%s/001/case.yaml", folder);
+    return stat(path, &s) == 0;
+}
+
 int verb_run(const choices *c)
 {
     char error[ERROR_SIZE] = "", stem[PATH_SIZE];
@@ -86,7 +97,15 @@ int verb_run(const choices *c)
     config.error_size = sizeof error;
     config.resume = c->resume;
     cli_stem(c->file[0], stem, sizeof stem);
-    return cli_run(c, &config, c->out ? c->out : stem, NULL);
+    const char *folder = c->out ? c->out : stem;
+    if (has_series(folder)) {
+        fprintf(stderr,
+                "mps run: --out %s: there are the runs of a sweep, repetition or convergence (001, "
+                "..); choose another folder with --out\n",
+                folder);
+        return MPS_EXIT_USAGE;
+    }
+    return cli_run(c, &config, folder, NULL);
 }
 
 int verb_resume(const choices *c)

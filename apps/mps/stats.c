@@ -126,11 +126,16 @@ static void print_fit(const mps_impacts *impacts, int32_t kind, const char *name
                       const mps_impacts_info *info)
 {
     mps_fit fit;
+    mps_impact high;
     mps_fit_init(&fit, sizeof fit);
+    mps_impact_init(&high, sizeof high);
     if (mps_impacts_fit_get(impacts, kind, &fit) != MPS_OK || !isfinite(fit.value)) return;
     printf("    %-19s %s", name, both(fit.value, info));
     if (isfinite(fit.value_band[0]))
         printf(", band %s to %s", both(fit.value_band[0], info), both(fit.value_band[1], info));
+    if (fit.state == MPS_FIT_MOMENTS) printf(", by moments: do not extrapolate");
+    if (mps_impacts_highest(impacts, 0, &high) == MPS_OK && fit.value < high.peak)
+        printf("; less than the highest peak of the record: of no use");
     printf("\n");
 }
 

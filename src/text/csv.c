@@ -272,13 +272,16 @@ static bool is_number(const char *text)
 /* ---- names ---- */
 
 /* Split "roll[deg]", "roll (deg)" or "roll" into name and unit. */
-static void divide_name(field *f, bool round)
+static void divide_name(field *f, int32_t flags)
 {
     const size_t length = strlen(f->text);
     size_t open = length;
     while (open > 0 && blank(f->text[open - 1])) open--;
     const size_t end = open;
     const char close = end > 0 ? f->text[end - 1] : '\0';
+    const char *inner = close == ')' ? strrchr(f->text, '(') : NULL;
+    const bool number = inner && inner[1] >= '0' && inner[1] <= '9';
+    const bool round = !(flags & CSV_OWN) || (flags & CSV_ROUND && inner && !number);
     if (close != ']' && (close != ')' || !round)) { /* an unclosed bracket is no unit */
         char *bracket = strchr(f->text, '[');
         if (bracket && bracket > f->text) *bracket = '\0';
@@ -333,7 +336,7 @@ static mps__csv_error read_names(mps__csv *t)
         f->text = plain_text(f->text);
         f->unit = f->text + strlen(f->text);
         numbers += is_number(f->text);
-        divide_name(f, !(t->flags & CSV_OWN));
+        divide_name(f, t->flags);
         f->text = trimmed(f->text);
         f->unit = trimmed(f->unit);
     }

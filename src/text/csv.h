@@ -20,9 +20,10 @@ typedef enum mps__csv_error {
     CSV_MEMORY
 } mps__csv_error;
 
-/* Flag: a table of libmps, to which a program may still be writing. An incomplete last line is
- * ignored, nan and inf are numbers, and units are in [] only: "P(1)" is a name. */
-enum { CSV_OWN = 1 };
+/* Flags. CSV_OWN: a table of libmps, to which a program may still be writing. An incomplete last
+ * line is ignored, nan and inf are numbers, and units are in [] only: "P(1)" is a name. CSV_ROUND,
+ * with CSV_OWN: perhaps of another program; "P(kPa)" has a unit, "P(1)" has none. */
+enum { CSV_OWN = 1, CSV_ROUND = 2 };
 
 typedef struct mps__csv {
     /* of the caller; folder: NULL, or the folder of the run of this file */

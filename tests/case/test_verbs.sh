@@ -129,6 +129,31 @@ expect 0 "" "$program" run $'name\377.yaml' -q -o named --set "output.page=1 MB"
 for file in summary.json report.html; do iconv -f UTF-8 -t UTF-8 "named/$file" > /dev/null || fail "$file of a file whose name is not UTF-8"; done
 grep -q '"case": "name' named/summary.json || fail "case of a file whose name is not UTF-8: $(grep '"case"' named/summary.json)"
 
+# ---- a folder of several runs takes no other one
+mkdir -p several/001 && cp small.yaml several/001/case.yaml
+expect 2 "there are the runs of a sweep, repetition or convergence" "$program" run small.yaml -q -o several --overwrite
+[ "$(ls several)" = 001 ] || fail "run in a folder of several runs: $(ls several)"
+
+# ---- tables of other programs have units in round brackets
+printf 'Time (s);P (kPa);eta (cm)\n0;1;1\n0.01;1;1\n0.02;1;1\n' > round.csv
+expect 0 "" "$program" compare done round.csv
+says "^  P +[0-9.]+ kPa +[0-9.e-]+ kPa +1 kPa "
+says "^  eta +[0-9.]+ cm +[0-9.e-]+ cm +1 cm "
+
+# ---- columns of a motion: others that the file has by their names are not dropped silently
+printf 't[s],SURGE[m],Heave[m],PHI[deg],wind[m/s]\n0,0,0,0,0\n1,.01,0,1,0\n2,0,0,0,0\n' > ship.csv
+expect 0 "motion.columns: names some degrees, so these columns are not used: SURGE, Heave; add them" "$program" check small.yaml --set "motion={file: ship.csv, columns: {roll: PHI}}"
+expect 0 "" "$program" check small.yaml --set "motion={file: ship.csv, columns: {roll: PHI, surge: SURGE, heave: Heave}}"
+grep -q "are not used" log && fail "motion.columns: all are used: $(grep "not used" log)"
+
+# ---- a fit that cannot be extrapolated says so: 39 peaks below 10 kPa, one of 12 kPa
+mkdir peaks
+awk 'BEGIN {srand(1); print "t[s],P[Pa]"; for (i = 0; i < 100; i++) printf "%.2f,0\n", i / 100
+    for (e = 0; e < 40; e++) {h = e == 20 ? 12000 : 10000 - 50 * (e * 17 % 40)
+        for (k = 0; k < 100; k++) {p = k < 10 ? h * (1 - (k - 5) ^ 2 / 25) : 0; printf "%.2f,%.2f\n", 1 + e + k / 100, p}}}' > peaks/probes.csv
+expect 0 "by moments: do not extrapolate; less than the highest peak of the record: of no use" "$program" stats peaks
+says "^    Weibull +[0-9.]+ kPa, band [0-9.]+ kPa to [0-9.]+ kPa; less than the highest"
+
 # ---- files of any size end, and take no memory of their size
 cp -r done vast
 truncate -s 1T vast/summary.json vast/probes.csv

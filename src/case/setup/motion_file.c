@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
+#include <strings.h>
 
 /* Columns of the file: time, and each degree of freedom; -1: not found. */
 typedef struct chosen {
@@ -76,7 +77,31 @@ static bool choose(build *b, build_motion *m, const tree_node *map, const mps__c
     return !mps__case_failed(b->c);
 }
 
-/* List unused columns by name. If `columns` selects some, the others are omitted on purpose. */
+static bool is_degree(const char *name)
+{
+    for (int32_t d = 0; d < MOTION_DEGREES; d++)
+        if (strcasecmp(name, mps__degrees[d]) == 0) return true;
+    return false;
+}
+
+/* `columns` selects some degrees: others that the file has by their own names are not used. */
+static void note_omitted(build *b, const build_motion *m, const tree_node *map, const mps__csv *t)
+{
+    char names[BUILD_TEXT] = "";
+    size_t used = 0;
+    for (int32_t k = 0; k < t->columns; k++)
+        if (!t->wanted[k] && is_degree(t->name[k]) && used < sizeof names)
+            used += (size_t)snprintf(names + used, sizeof names - used, "%s%s", used ? ", " : "",
+                                     t->name[k]);
+    if (used)
+        mps__case_log(
+            b->c, mps__tree_find(map, "columns"), true,
+            "%s.columns: names some degrees, so these columns are not used: %s; add them, "
+            "e.g. {%s: %.*s}, if they are meant",
+            m->of, names, mps__degrees[0], (int)strcspn(names, ","), names);
+}
+
+/* List unused columns by name. */
 static void note_unused(build *b, build_motion *m, const tree_node *map, const mps__csv *t)
 {
     size_t used = 0;
@@ -85,7 +110,9 @@ static void note_unused(build *b, build_motion *m, const tree_node *map, const m
             used += (size_t)snprintf(m->unused + used, sizeof m->unused - used, "%s%s",
                                      used ? ", " : "", t->name[k]);
     }
-    if (used && !chooses(mps__tree_find(map, "columns")))
+    if (used && chooses(mps__tree_find(map, "columns")))
+        note_omitted(b, m, map, t);
+    else if (used)
         mps__case_log(b->c, mps__tree_find(map, "file"), true,
                       "%s: columns that are no motion: %s; 'columns' says what they are, e.g. "
                       "{roll: PHI}",

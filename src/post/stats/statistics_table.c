@@ -95,7 +95,8 @@ static mps_status check_times(const mps_stats_config *config, const mps__csv *t)
 static mps_status read_file(const mps_stats_config *config, const choice *w, mps_table *table)
 {
     mps__csv *t = &table->csv;
-    MPS__STATS_TRY(status_of(config, t, mps__csv_open_in(t, w->folder, w->path, CSV_OWN)));
+    const int32_t flags = w->folder ? CSV_OWN : CSV_OWN | CSV_ROUND;
+    MPS__STATS_TRY(status_of(config, t, mps__csv_open_in(t, w->folder, w->path, flags)));
     MPS__STATS_TRY(choose_columns(config, w->count, w->names, table));
     MPS__STATS_TRY(status_of(config, t, mps__csv_read(t)));
     return check_times(config, t);
