@@ -252,8 +252,7 @@ static int write_all(collection *g)
     for (; of < g->runs && !first; of++)
         if (summary_is_done(g->run[of].folder)) first = series_table(g->c, g->run[of].folder);
     if (!first) {
-        fprintf(stderr, "mps collect: %s: none of %d runs is done\n", g->run[0].folder,
-                (int)g->runs);
+        fprintf(stderr, "mps collect: %s: none of %d runs is done\n", g->c->file[0], (int)g->runs);
         return MPS_EXIT_USAGE;
     }
     int code = MPS_EXIT_USAGE;
