@@ -151,12 +151,11 @@ static double floor_below(build *b, const double *x)
 /* Name of the solid that contains this position, or NULL. */
 static const char *solid_at(build *b, const double *x)
 {
-    int32_t part;
-    const bool behind = mps__wall_behind(b, x, &part);
     for (int32_t i = 0; i < b->solids; i++) {
         const build_solid *o = &b->solid[i];
+        int32_t part;
         if (o->plate) continue;
-        if (o->file ? behind && part == mps_part_find(b->sim, o->name)
+        if (o->file ? mps__wall_behind(b, x, &part) && part == mps_part_find(b->sim, o->name)
                     : mps__form_inside(&o->form, x) > 1e-6 * b->dp)
             return o->name;
     }
